@@ -1,0 +1,1 @@
+"""From a study file to runs, their comparison and the results on disk."""
