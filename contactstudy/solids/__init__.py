@@ -1,0 +1,1 @@
+"""Three-dimensional elasticity: hexahedral meshes and their condensation to superelements."""
