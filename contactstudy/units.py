@@ -1,0 +1,143 @@
+"""The only place where "300 km/h" becomes 83.33: text with a unit to SI floats and back."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+import pint
+
+
+class UnitError(ValueError):
+    """A value that cannot be had in the wanted unit; the message says what is allowed."""
+
+
+@lru_cache(maxsize=1)
+def _registry() -> pint.UnitRegistry:
+    return pint.UnitRegistry(cache_folder=None)
+
+
+# "65 MN/m", "-1.5e-3 kN·s/m", "5e-5": a number, then perhaps a unit. Nothing else is evaluated.
+_TEXT = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*")
+_UNIT = re.compile(r"[A-Za-zµμΩ°%0-9*/^·.()\- ]*")
+
+
+def to_si(value: Any, unit: str) -> float:
+    """Value in the SI unit `unit`.
+
+    Parameters
+    ----------
+    value : str, int or float
+        Text with a unit ("65 MN/m", "75 kN·s/m", "300 km/h"); a bare number, or text that is
+        only a number, is in `unit` already.
+    unit : str
+        SI unit in pint's notation, e.g. "N/m"; "" for a number without dimension.
+
+    Raises
+    ------
+    UnitError
+        When it is no number, not finite, or of another dimension.
+    """
+    example = f"a number in {unit} or text with a unit" if unit else "a number"
+    if isinstance(value, bool) or not isinstance(value, int | float | str):
+        raise UnitError(f"must be {example}")
+    if isinstance(value, str):
+        number, text = _split(value, example)
+        result = number * _factor(text, unit) if text else number
+    else:
+        result = float(value)
+    if not math.isfinite(result):
+        raise UnitError(f"must be finite ({unit})" if unit else "must be finite")
+    return result
+
+
+def _split(value: str, example: str) -> tuple[float, str]:
+    match = _TEXT.fullmatch(value)
+    if match is None or not _UNIT.fullmatch(match[2]):
+        raise UnitError(f"must be {example}")
+    return float(match[1]), match[2]
+
+
+def _factor(text: str, unit: str) -> float:
+    # A blank between units is a product to people, "kN s/m"; pint reads it the same way.
+    try:
+        given = _registry().parse_units(text.replace("·", "*").replace("μ", "µ"))
+    except Exception as error:  # pint raises many types for text that is no unit
+        raise UnitError(f"has the unknown unit '{text}'; allowed: {_allowed(unit)}") from error
+    wanted = _registry().parse_units(unit)
+    if given.dimensionality != wanted.dimensionality:
+        raise UnitError(f"has the wrong unit '{text}'; allowed: {_allowed(unit)}")
+    return float(_registry().Quantity(1.0, given).to(wanted).magnitude)
+
+
+def _allowed(unit: str) -> str:
+    return f"{unit} and its multiples" if unit else "a number without unit"
+
+
+@dataclass(frozen=True)
+class Limits:
+    """Reads a quantity and holds it to its limits; made for use as a validator.
+
+    Attributes
+    ----------
+    unit : str
+        SI unit, "" for none.
+    above, at_least, at_most : float or None
+        Exclusive lower, inclusive lower and inclusive upper limit in `unit`.
+    whole : bool
+        Whether only whole numbers are allowed.
+    """
+
+    unit: str = ""
+    above: float | None = None
+    at_least: float | None = None
+    at_most: float | None = None
+    whole: bool = False
+
+    def __call__(self, value: Any) -> float | int:
+        """SI value of `value`; `UnitError` (a ValueError) with what is allowed otherwise."""
+        try:
+            number = to_si(value, self.unit)
+        except UnitError as error:
+            if self.whole:
+                raise UnitError(f"must be {self.description()}") from error
+            raise
+        low = self.above is not None and number <= self.above
+        low = low or (self.at_least is not None and number < self.at_least)
+        high = self.at_most is not None and number > self.at_most
+        if low or high or (self.whole and number != int(number)):
+            raise UnitError(f"must be {self.description()}")
+        return int(number) if self.whole else number
+
+    def description(self) -> str:
+        """What is allowed, e.g. ``above 0 N/m``."""
+        limits = [
+            f"{word} {limit:g}"
+            for word, limit in (
+                ("above", self.above),
+                ("at least", self.at_least),
+                ("at most", self.at_most),
+            )
+            if limit is not None
+        ]
+        kind = "a whole number " if self.whole else ("" if limits else "a number ")
+        return f"{kind}{' and '.join(limits)} {self.unit}".strip()
+
+
+def one_of_or(names: tuple[str, ...], limits: Limits) -> Callable[[Any], float | str]:
+    """Validator for one of some names, or else a quantity within `limits`."""
+
+    def validate(value: Any) -> float | str:
+        if isinstance(value, str) and value in names:
+            return value
+        try:
+            return limits(value)
+        except UnitError as error:
+            quoted = " or ".join(f'"{name}"' for name in names)
+            raise UnitError(f"{error}, or {quoted}") from error
+
+    return validate
