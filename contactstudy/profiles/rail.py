@@ -1,0 +1,201 @@
+"""Rail cross-sections: exact arcs and lines of the drawing."""
+
+import tomllib
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from contactstudy.exceptions import InputError
+from contactstudy.profiles.geometry import Arc, Line, Piece, resolve_path
+from contactstudy.resources import resource
+
+NAMES = ("60E1",)
+
+
+@dataclass(frozen=True)
+class RailProfile:
+    """Cross-section of a rail, symmetric about y = 0.
+
+    Coordinates: y lateral, z up, z = 0 at the top of the rail, foot at ``-height`` [m].
+
+    Parameters
+    ----------
+    name : str
+        Name of the standard's profile.
+    height : float
+        Height of the rail [m].
+    pieces : tuple of Line or Arc
+        Right half of the outline from the crown (0, 0) down to (0, -height), clockwise.
+    source : str
+        Where the dimensions come from.
+    reference : tuple of (str, float)
+        Values printed by the source, in its units, for checks only.
+    """
+
+    name: str
+    height: float
+    pieces: tuple[Piece, ...]
+    source: str = ""
+    reference: tuple[tuple[str, float], ...] = ()
+
+    @property
+    def crown_radius(self) -> float:
+        """Radius of curvature at the top of the rail [m]."""
+        first = self.pieces[0]
+        assert isinstance(first, Arc)
+        return first.radius
+
+    @property
+    def foot_width(self) -> float:
+        """Greatest width of the foot [m]."""
+        return 2.0 * self._piece("foot edge").start[0]
+
+    @property
+    def bearing_half_width(self) -> float:
+        """Half width of the flat underside of the foot, where the pad acts [m]."""
+        return self._piece("foot bottom").start[0]
+
+    @property
+    def web_thickness(self) -> float:
+        """Least thickness of the web [m]."""
+        return 2.0 * self._piece("web").start[0]
+
+    @cached_property
+    def heights(self) -> dict[str, float]:
+        """Heights z of the joints of the right half, from top to bottom [m].
+
+        Keys: ``side_top`` (end of the running surface's arcs), ``side_bottom`` (end of the side
+        face), ``head_corner`` (start of the head's underside), ``head_web`` (underside goes over
+        into the fillet to the web), ``head_bottom_axis`` (underside produced to the axis),
+        ``web_top`` and ``web_bottom`` (ends of the straight web), ``foot_top_axis`` (foot's top
+        produced to the axis), ``foot_web`` (fillet goes over into the foot's top),
+        ``foot_knee`` (middle of the fillet between the two slopes), ``foot_edge_top``,
+        ``foot_edge_bottom`` (ends of the vertical edge), ``foot_bottom``.
+        """
+        side, under = self._piece("side face"), self._piece("head underside")
+        web, steep = self._piece("web"), self._piece("foot top, steep")
+        shallow, edge = self._piece("foot top, shallow"), self._piece("foot edge")
+        return {
+            "side_top": side.start[1],
+            "side_bottom": side.end[1],
+            "head_corner": under.start[1],
+            "head_web": under.end[1],
+            "head_bottom_axis": _on_axis(under),
+            "web_top": web.start[1],
+            "web_bottom": web.end[1],
+            "foot_top_axis": _on_axis(steep),
+            "foot_web": steep.start[1],
+            "foot_knee": 0.5 * (steep.end[1] + shallow.start[1]),
+            "foot_edge_top": edge.start[1],
+            "foot_edge_bottom": edge.end[1],
+            "foot_bottom": -self.height,
+        }
+
+    def half_width(self, z: ArrayLike) -> NDArray[np.float64]:
+        """Half width of the outline at height z.
+
+        Parameters
+        ----------
+        z : array_like
+            Heights, from ``-height`` to 0 [m].
+
+        Returns
+        -------
+        ndarray
+            y of the right half of the outline [m]; at the very foot the end of its rounding.
+
+        Raises
+        ------
+        InputError
+            If a height lies outside the rail.
+        """
+        h = np.asarray(z, dtype=float)
+        if np.any((h > 1e-12) | (h < -self.height - 1e-12) | ~np.isfinite(h)):
+            raise InputError(
+                f"height z on profile {self.name} must lie between {-self.height} m and 0 m"
+            )
+        h = np.clip(h, -self.height, 0.0)
+        # z falls monotonically along the right half, so the pieces are ordered by it
+        sloped = [p for p in self.pieces if p.start[1] > p.end[1]]
+        ends = np.array([p.end[1] for p in sloped])
+        which = np.searchsorted(-ends, -h, side="left").clip(0, len(sloped) - 1)
+        y = np.empty_like(h)
+        for k in np.unique(which):
+            y[which == k] = sloped[k].y_of_z(h[which == k])
+        return y
+
+    def running_surface(self, y: ArrayLike) -> NDArray[np.float64]:
+        """Height z of the running surface at y [m]; NaN beyond the lower end of the side face."""
+        return self._surface(y, 0)
+
+    def running_slope(self, y: ArrayLike) -> NDArray[np.float64]:
+        """Slope dz/dy of the running surface at y [-]."""
+        return self._surface(y, 1)
+
+    def running_curvature(self, y: ArrayLike) -> NDArray[np.float64]:
+        """Second derivative d2z/dy2 of the running surface at y [1/m]."""
+        return self._surface(y, 2)
+
+    def half_outline(self, chord_error: float = 1e-7) -> NDArray[np.float64]:
+        """Right half from the crown to the foot's centre, shape (n, 2), clockwise [m]."""
+        rows = [p.points(chord_error)[:-1] for p in self.pieces]
+        return np.concatenate([*rows, [self.pieces[-1].end]])
+
+    @cached_property
+    def outline(self) -> NDArray[np.float64]:
+        """Whole outline, shape (n, 2), counter-clockwise from the foot's centre, open [m].
+
+        Chords stay within 0.1 um of the arcs.
+        """
+        right = self.half_outline()[::-1]
+        left = right[::-1][1:-1] * np.array([-1.0, 1.0])
+        return np.concatenate([right, left])
+
+    def _piece(self, part: str) -> Piece:
+        return next(p for p in self.pieces if p.part == part)
+
+    def _surface(self, y: ArrayLike, derivative: int) -> NDArray[np.float64]:
+        b = np.asarray(y, dtype=float)
+        side = np.abs(b)
+        top = self.pieces[: 1 + self.pieces.index(self._piece("side face"))]
+        ends = np.array([p.end[0] for p in top])
+        which = np.searchsorted(ends, side, side="left")
+        z = np.full(b.shape, np.nan)
+        for k, piece in enumerate(top):
+            here = which == k
+            z[here] = piece.z_of_y(side[here], derivative)
+        return z * np.where(b < 0.0, -1.0, 1.0) if derivative == 1 else z
+
+
+def _on_axis(line: Piece) -> float:
+    assert isinstance(line, Line)
+    return float(line.z_of_y(np.zeros(1), 0)[0])
+
+
+@lru_cache(maxsize=8)
+def rail_profile(name: str = "60E1") -> RailProfile:
+    """Rail profile by its standard's name.
+
+    Parameters
+    ----------
+    name : str
+        One of ``profiles.rail.NAMES``.
+
+    Raises
+    ------
+    InputError
+        If there is no such profile.
+    """
+    if name not in NAMES:
+        raise InputError(f"rail profile '{name}' is unknown; allowed: {', '.join(NAMES)}")
+    with resource("meshes", "profiles", f"{name}.toml").open("rb") as file:
+        data = tomllib.load(file)
+    return RailProfile(
+        name=data["name"],
+        height=data["height"] * 1e-3,
+        pieces=resolve_path(data["path"]),
+        source=data["source"],
+        reference=tuple(data["reference"].items()),
+    )

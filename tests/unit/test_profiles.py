@@ -1,0 +1,113 @@
+import itertools
+
+import numpy as np
+import pytest
+
+from contactstudy.exceptions import InputError
+from contactstudy.profiles import (
+    polygon_properties,
+    rail_profile,
+    section_properties,
+    wheel_profile,
+)
+from contactstudy.resources import resource
+
+
+def test_shipped_profile_is_found_and_unknown_resource_is_refused():
+    assert resource("meshes", "profiles", "60E1.toml").is_file()
+    with pytest.raises(InputError, match="allowed: meshes, report, studies"):
+        resource("nonsense")
+    with pytest.raises(InputError, match="no such file"):
+        resource("meshes", "profiles", "99E9.toml")
+
+
+def test_unknown_profile_names_list_what_is_allowed():
+    with pytest.raises(InputError, match="60E1"):
+        rail_profile("60E9")
+    with pytest.raises(InputError, match="cylinder, cone"):
+        wheel_profile("square")
+
+
+def test_outline_is_tangent_continuous_from_crown_to_foot():
+    pieces = rail_profile().pieces
+    assert pieces[0].start == (0.0, 0.0)
+    for a, b in itertools.pairwise(pieces):
+        assert a.end == b.start
+        p, q = a.points(1e-12)[-2:], b.points(1e-12)[:2]
+        ta, tb = np.diff(p, axis=0)[0], np.diff(q, axis=0)[0]
+        turn = (ta[0] * tb[1] - ta[1] * tb[0]) / np.linalg.norm(ta) / np.linalg.norm(tb)
+        assert abs(turn) < 1e-4, (a.part, b.part)  # chords of 1 pm sagitta, not yet tangents
+
+
+def test_running_surface_lies_on_the_arcs():
+    rail = rail_profile()
+    y = np.linspace(-0.0102, 0.0102, 101)
+    np.testing.assert_allclose(rail.running_surface(y), np.sqrt(0.09 - y**2) - 0.3, atol=1e-16)
+    # level at the crown to full relative precision: y^2/2R at 1 um
+    assert rail.running_surface(1e-6) == pytest.approx(-1e-12 / 0.6, rel=1e-9)
+    # printed joints (mm): R80 about (7.5005, 80.128), R13 about (23.016, 14.949), face at 36.000
+    y80, y13 = 0.02, 0.03
+    assert rail.running_surface(y80) == pytest.approx(
+        -0.080128 + np.sqrt(0.08**2 - (y80 - 0.0075005) ** 2), abs=2e-7
+    )
+    assert rail.running_surface(y13) == pytest.approx(
+        -0.014949 + np.sqrt(0.013**2 - (y13 - 0.023016) ** 2), abs=2e-7
+    )
+    assert rail.running_surface(0.036) == pytest.approx(-0.0143, abs=5e-6)
+    assert np.isnan(rail.running_surface(0.04))
+
+
+def test_running_slope_and_curvature_are_derivatives_of_the_surface():
+    rail = rail_profile()
+    y = np.array([-0.034, -0.02, -0.004, 0.003, 0.018, 0.031])
+    h = 1e-7
+    slope = (rail.running_surface(y + h) - rail.running_surface(y - h)) / (2 * h)
+    curvature = (rail.running_slope(y + h) - rail.running_slope(y - h)) / (2 * h)
+    np.testing.assert_allclose(rail.running_slope(y), slope, rtol=1e-6)
+    np.testing.assert_allclose(rail.running_curvature(y), curvature, rtol=1e-5)
+    assert rail.running_curvature(0.0) == pytest.approx(-1 / rail.crown_radius)
+
+
+def test_half_width_follows_the_outline():
+    rail = rail_profile()
+    points = rail.half_outline()
+    keep = points[:, 1] > -rail.height + 1e-5
+    # at the crown y varies as the root of z, so an ulp of z is 1e-9 m of y
+    np.testing.assert_allclose(rail.half_width(points[keep, 1]), points[keep, 0], atol=1e-8)
+    z = rail.heights
+    assert rail.half_width([0.5 * (z["web_top"] + z["web_bottom"])]) == pytest.approx(0.00825)
+    assert rail.half_width(-0.167) == pytest.approx(0.075)
+    assert (rail.foot_width, rail.web_thickness) == pytest.approx((0.150, 0.0165))
+    assert z["head_bottom_axis"] == pytest.approx(-0.051)
+    assert rail.height + z["foot_top_axis"] == pytest.approx(0.0315)
+    assert list(z.values()) == sorted(z.values(), reverse=True)
+    with pytest.raises(InputError, match="between"):
+        rail.half_width(0.001)
+
+
+def test_polygon_integrals_of_a_shifted_rectangle():
+    corners = np.array([[1.0, 2.0], [4.0, 2.0], [4.0, 4.0], [1.0, 4.0]])
+    area, centre, second_y, second_z = polygon_properties(corners)
+    assert area == pytest.approx(6.0)
+    assert centre == pytest.approx((2.5, 3.0))
+    assert (second_y, second_z) == pytest.approx((3 * 2**3 / 12, 2 * 3**3 / 12))
+
+
+def test_section_mesh_faults_are_named():
+    x = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+    with pytest.raises(InputError, match="element 0 is degenerate"):
+        section_properties(x, [[0, 3, 2, 1]], 0.3)
+    with pytest.raises(InputError, match="y >= 0"):
+        section_properties(x - 0.5, [[0, 1, 2, 3]], 0.3, symmetric=True)
+    skew = np.array([[0.0, 0.0], [1.0, 0.5], [1.0, 1.5], [0.0, 1.0]])
+    with pytest.raises(InputError, match="principal"):
+        section_properties(skew, [[0, 1, 2, 3]], 0.3)
+
+
+@pytest.mark.parametrize(("name", "conicity"), [("cylinder", 0.0), ("cone", 0.05)])
+def test_straight_treads(name, conicity):
+    wheel = wheel_profile(name)
+    y = np.linspace(-0.03, 0.03, 7)
+    np.testing.assert_allclose(wheel.height(y), conicity * y)
+    np.testing.assert_array_equal(wheel.slope(y), conicity)
+    np.testing.assert_array_equal(wheel.curvature(y), 0.0)
