@@ -1,0 +1,211 @@
+"""One rail cell condensed to a superelement, with residual flexibility at its surface."""
+
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+import scipy.sparse as sp
+from numpy.typing import NDArray
+from scipy.sparse.linalg import LinearOperator, eigsh
+
+from contactstudy.profiles.rail import rail_profile
+from contactstudy.solids.chain import BlockTridiagonal, Slice, chain_blocks
+from contactstudy.solids.extrusion import ExtrudedSlice, extrude
+from contactstudy.solids.interface import interface_basis
+from contactstudy.solids.recipe import CellRecipe
+from contactstudy.solids.section_mesh import SectionMesh, rail_section_mesh
+from contactstudy.solids.section_rows import SectionRows, section_rows
+from contactstudy.solids.window import MARGIN, window_response
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class RailCell:
+    """A condensed cell; coordinates are (left interface, internal modes, right interface).
+
+    Slices are counted from the cell's left end, nodes of the running surface by y. All
+    matrices stand for the whole rail, also if only half of it was meshed.
+
+    Attributes
+    ----------
+    recipe : CellRecipe
+    stiffness, mass : ndarray (nd, nd)
+        In N/m and kg.
+    surface_y : ndarray (ny,)
+        Lateral positions of the running-surface nodes in m.
+    surface_map : ndarray (ns + 1, ny, nd)
+        Displacement of the surface nodes along the outward normal.
+    centre_map, foot_map : ndarray (ns + 1, nd)
+        Mean vertical displacement of the section and of the foot's underside.
+    residual : ndarray ((2*ns + 1)*ny, (2*ns + 1)*ny)
+        Flexibility in m/N of the surface nodes of two neighbouring cells that the reduced
+        cells leave out.
+    centre_residual : ndarray (2*ns + 1, (2*ns + 1)*ny)
+        What surface loads add to the section mean beyond the reduced cells, in m/N.
+    """
+
+    recipe: CellRecipe
+    stiffness: Array
+    mass: Array
+    surface_y: Array
+    surface_map: Array
+    centre_map: Array
+    foot_map: Array
+    residual: Array
+    centre_residual: Array
+
+
+def section_of(recipe: CellRecipe) -> tuple[SectionMesh, ExtrudedSlice, SectionRows]:
+    """Section mesh, one slice and the plane's functionals of a recipe."""
+    profile = rail_profile(recipe.profile)
+    section = rail_section_mesh(profile, recipe.size, recipe.symmetric, recipe.contact_half_width)
+    piece = extrude(
+        section,
+        recipe.length / recipe.n_slices,
+        recipe.youngs_modulus,
+        recipe.poisson_ratio,
+        recipe.density,
+    )
+    return section, piece, section_rows(section, profile, piece)
+
+
+def condense(recipe: CellRecipe) -> RailCell:
+    """Condense one cell of a rail.
+
+    Parameters
+    ----------
+    recipe : CellRecipe
+
+    Returns
+    -------
+    RailCell
+
+    Raises
+    ------
+    InputError
+        If the mesh cannot be built.
+    NumericalError
+        If a pivot of the elimination is not positive definite.
+    """
+    _, piece, rows = section_of(recipe)
+    ns, ny, n = recipe.n_slices, len(rows.surface_y), len(rows.centre)
+    response = window_response(piece.stiffness, ns, rows)
+    basis = interface_basis(response, rows, piece.free % 3 == 0, recipe.interface_modes)
+    shapes = _cell_shapes(piece, ns, basis, recipe.internal_modes)
+    stiffness = _project(piece.stiffness, shapes)
+    mass = _project(piece.mass, shapes)
+    surface_map = np.stack([rows.surface @ T for T in shapes])
+    centre_map = np.stack([rows.centre @ T for T in shapes])
+    foot_map = np.stack([rows.foot @ T for T in shapes])
+
+    # residual = exact window flexibility - flexibility of the same window of reduced cells
+    F = _reduced_window(stiffness, recipe.interface_modes)
+    pair_surface = _pair(surface_map.reshape(ns + 1, ny, -1), recipe.interface_modes)
+    pair_centre = _pair(centre_map[:, None], recipe.interface_modes)[:, 0]
+    exact = _by_reflection(response.surface, ns, ny)
+    exact_centre = _by_reflection(response.centre[:, None], ns, ny)
+    S = pair_surface.reshape(-1, F.shape[0])
+    residual = exact.reshape(S.shape[0], -1) - S @ F @ S.T
+    centre_residual = exact_centre[:, 0].reshape(2 * ns + 1, -1) - pair_centre @ F @ S.T
+    assert n == shapes[0].shape[0]
+    return RailCell(
+        recipe,
+        stiffness,
+        mass,
+        rows.surface_y,
+        surface_map,
+        centre_map,
+        foot_map,
+        0.5 * (residual + residual.T),
+        centre_residual,
+    )
+
+
+def _cell_shapes(piece: ExtrudedSlice, ns: int, basis: Array, n_internal: int) -> list[Array]:
+    """Displacement of every plane for unit coordinates: constraint and fixed-interface modes."""
+    n, m = basis.shape
+    slices = [piece.stiffness] * ns
+    diagonal, upper = chain_blocks(slices)
+    factor = BlockTridiagonal(diagonal[1:-1], upper[1:-1])
+    # interior of the constraint modes: K_ii u_i = -K_ib Psi
+    rhs = [np.zeros((n, 2 * m)) for _ in range(ns - 1)]
+    rhs[0][:, :m] -= upper[0].T @ basis
+    rhs[-1][:, m:] -= upper[-1] @ basis
+    interior = factor.solve(rhs)
+    modes = _fixed_interface_modes(piece, ns, factor, n_internal)
+    left = np.hstack([basis, np.zeros((n, n_internal + m))])
+    right = np.hstack([np.zeros((n, m + n_internal)), basis])
+    inner = [np.hstack([u[:, :m], v, u[:, m:]]) for u, v in zip(interior, modes, strict=True)]
+    return [left, *inner, right]
+
+
+def _fixed_interface_modes(
+    piece: ExtrudedSlice, ns: int, factor: BlockTridiagonal, count: int
+) -> list[Array]:
+    """Lowest vibration modes of a cell with both interfaces held (Craig and Bampton 1968)."""
+    n = len(piece.free)
+    if count == 0:
+        return [np.zeros((n, 0))] * (ns - 1)
+    M = piece.mass
+    eye = sp.identity(ns - 1)
+    shift = sp.diags_array(np.ones(ns - 2), offsets=1, shape=(ns - 1, ns - 1))
+    coupling = sp.kron(shift, sp.csr_array(M.ab))
+    mass = (sp.kron(eye, sp.csr_array(M.bb + M.aa)) + coupling + coupling.T).tocsr()
+
+    def solve(b: Array) -> Array:
+        return np.concatenate(factor.solve(list(b.reshape(ns - 1, n, 1)))).ravel()
+
+    N = mass.shape[0]
+    _, V = eigsh(
+        LinearOperator((N, N), matvec=lambda x: x, dtype=float),
+        k=count,
+        M=mass,
+        sigma=0.0,
+        OPinv=LinearOperator((N, N), matvec=solve, dtype=float),
+        v0=np.cos(np.arange(N)),
+    )
+    V = V * np.sign(V[np.abs(V).argmax(axis=0), np.arange(count)])
+    return list(V.reshape(ns - 1, n, count))
+
+
+def _project(matrix: Slice, shapes: list[Array]) -> Array:
+    """Sum over the slices of T^T A T."""
+    aa, ab, bb = (sp.csr_array(block) for block in (matrix.aa, matrix.ab, matrix.bb))
+    total = np.zeros((shapes[0].shape[1],) * 2)
+    for A, B in pairwise(shapes):
+        cross = A.T @ (ab @ B)
+        total += A.T @ (aa @ A) + B.T @ (bb @ B) + cross + cross.T
+    return 0.5 * (total + total.T)
+
+
+def _reduced_window(stiffness: Array, m: int) -> Array:
+    """Flexibility of the clamped window of reduced cells on the coordinates of its middle pair."""
+    cells, step = 2 * MARGIN + 2, len(stiffness) - m
+    K = np.zeros((cells * step + m,) * 2)
+    for c in range(cells):
+        at = slice(c * step, c * step + len(stiffness))
+        K[at, at] += stiffness
+    inner = K[m:-m, m:-m]
+    pair = slice(MARGIN * step - m, (MARGIN + 2) * step)
+    rhs = np.zeros((len(inner), pair.stop - pair.start))
+    rhs[pair] = np.eye(rhs.shape[1])
+    return np.asarray(np.linalg.solve(inner, rhs)[pair])
+
+
+def _pair(cell_map: Array, m: int) -> Array:
+    """Rows (ns + 1, k, nd) of one cell as rows (2*ns + 1, k, nd') of two neighbours."""
+    planes, k, nd = cell_map.shape
+    step = nd - m
+    out = np.zeros((2 * planes - 1, k, 2 * step + m))
+    out[:planes, :, :nd] = cell_map
+    out[planes - 1 :, :, step:] = cell_map
+    return out
+
+
+def _by_reflection(response: Array, ns: int, ny: int) -> Array:
+    """Responses to loads on all planes of the pair from those on its first half."""
+    planes, k, _ = response.shape
+    first = response.reshape(planes, k, ns + 1, ny)
+    second = first[::-1, :, ns - 1 :: -1] if ns > 0 else first[:, :, :0]
+    return np.concatenate([first, second], axis=2).reshape(planes, k, planes * ny)

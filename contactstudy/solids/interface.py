@@ -1,0 +1,64 @@
+"""Generalised modes of an interface plane: beam kinematics and what loads from afar add."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contactstudy.solids.section_rows import SectionRows
+from contactstudy.solids.window import WindowResponse
+
+Array = NDArray[np.float64]
+
+
+def interface_basis(
+    response: WindowResponse, rows: SectionRows, axial: NDArray[np.bool_], count: int
+) -> Array:
+    """Basis of the displacements of an interface plane.
+
+    The first columns are the rigid motions of the section. The others are the proper
+    orthogonal modes (in the area-weighted product) of the static responses to contact and
+    foot loads at least half a cell away: loads nearer by would fill the basis with their
+    local dents, which belong to the residual flexibility.
+
+    Parameters
+    ----------
+    response : WindowResponse
+        Responses of a window of cells.
+    rows : SectionRows
+        Functionals of a plane.
+    axial : ndarray of bool (n,)
+        Degrees of freedom along X, which change sign in a reflection in x.
+    count : int
+        Columns wanted.
+
+    Returns
+    -------
+    ndarray (n, count)
+        Rigid motions first; the others orthonormal and orthogonal to them in the weighted
+        product, so that the mean vertical displacement of a plane is its second coordinate.
+    """
+    planes, n_surface = response.interfaces, response.centre.shape[1]
+    n_slices = (response.surface.shape[0] - 1) // 2
+    ny = response.surface.shape[1]
+    plane_of_load = np.r_[np.repeat(np.arange(n_slices + 1), ny), np.arange(n_slices + 1)]
+    foot = np.arange(planes.shape[2]) >= n_surface
+    snapshots = []
+    for i, u in enumerate(planes):
+        distance = np.abs(plane_of_load - (i - 1) * n_slices)
+        snapshots.append(u[:, distance >= n_slices // 2])
+    # a pad presses evenly over its footprint: the mean over three quarters of a cell on each
+    # side of the middle plane (both halves are alike but for the sign of u_x)
+    near = foot & (plane_of_load >= n_slices // 4)
+    pad = planes[2][:, near].mean(axis=1, keepdims=True)
+    snapshots.append(np.sqrt(near.sum()) * np.where(axial[:, None], 0.0, pad))
+    X = np.hstack(snapshots)
+    # the reflected loads: u_x changes sign. Taking both makes modes either axial or transverse.
+    X = np.hstack([np.where(axial[:, None], X, 0.0), np.where(axial[:, None], 0.0, X)])
+    root = np.sqrt(rows.weights)[:, None]
+    Q, _ = np.linalg.qr(root * rows.rigid)
+    X = root * X
+    X = X - Q @ (Q.T @ X)
+    U, _, _ = np.linalg.svd(X, full_matrices=False)
+    extra = U[:, : count - rows.rigid.shape[1]]
+    # a fixed sign makes the same inputs give the same bytes
+    extra = extra * np.sign(extra[np.abs(extra).argmax(axis=0), np.arange(extra.shape[1])])
+    return np.hstack([rows.rigid, extra / root])

@@ -1,0 +1,270 @@
+"""Structured quadrilateral meshes of a rail's cross-section, for extrusion to hexahedra.
+
+The right half of the section is three mapped blocks, head, web and foot. The columns of the
+web run on through head and foot, so the mesh conforms; on the running surface the columns
+stand at a fixed spacing around the crown and grow towards the gauge corner.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contactstudy.exceptions import InputError
+from contactstudy.profiles.rail import RailProfile
+from contactstudy.profiles.section import SectionProperties, section_properties
+
+Array = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+
+
+@dataclass(frozen=True)
+class SectionMesh:
+    """A conforming mesh of bilinear quadrilaterals in the plane (y, z).
+
+    Attributes
+    ----------
+    nodes : ndarray (n, 2)
+        Coordinates y, z in m; z = 0 on top of the rail, up.
+    quads : ndarray (m, 4)
+        Corner nodes, counter-clockwise.
+    surface : ndarray (k,)
+        Nodes of the fine part of the running surface, ordered by y.
+    foot : ndarray (f,)
+        Nodes of the foot's underside, ordered by y.
+    symmetric : bool
+        True if only the half y >= 0 is meshed.
+    """
+
+    nodes: Array
+    quads: IntArray
+    surface: IntArray
+    foot: IntArray
+    symmetric: bool
+
+    @property
+    def plane_of_symmetry(self) -> IntArray:
+        """Nodes on y = 0 of a half section (empty for a whole one)."""
+        if not self.symmetric:
+            return np.empty(0, dtype=np.int64)
+        return np.flatnonzero(np.abs(self.nodes[:, 0]) < 1e-12)
+
+    def properties(self, poisson_ratio: float) -> SectionProperties:
+        """Area, second moments and shear coefficients of the WHOLE section, as meshed."""
+        return section_properties(self.nodes, self.quads, poisson_ratio, symmetric=self.symmetric)
+
+
+def graded(length: float, first: float, growth: float, largest: float) -> Array:
+    """Positions 0..length whose steps start at `first` at most and grow to `largest` at most.
+
+    Steps follow ``min(first*growth**i, largest)`` until the length is reached; all are then
+    shortened by the same factor, so that the last position is exact.
+    """
+    steps = [first]
+    while sum(steps) < length * (1 - 1e-9):
+        steps.append(min(steps[-1] * growth, largest))
+    positions = np.r_[0.0, np.cumsum(steps)]
+    return np.asarray(positions * (length / positions[-1]))
+
+
+def _along(polyline: Array, fractions: Array) -> Array:
+    """Points of a polyline at fractions of its arc length."""
+    s = np.r_[0.0, np.cumsum(np.hypot(*np.diff(polyline, axis=0).T))]
+    return np.stack([np.interp(fractions * s[-1], s, polyline[:, i]) for i in (0, 1)], axis=1)
+
+
+def _transfinite(bottom: Array, top: Array, left: Array, right: Array) -> Array:
+    """Coons patch (rows, columns, 2) of four matching edges; rows run from bottom to top."""
+    rows, columns = len(left), len(bottom)
+    # blending weights: the mean of the normalised arc lengths of opposite edges
+    u = 0.5 * (_normalised(bottom) + _normalised(top))
+    v = 0.5 * (_normalised(left) + _normalised(right))
+    U, V = np.broadcast_to(u, (rows, columns)), np.broadcast_to(v[:, None], (rows, columns))
+    U, V = U[..., None], V[..., None]
+    # P = (1-v) B + v T + (1-u) L + u R - bilinear interpolation of the corners
+    return np.asarray(
+        (1 - V) * bottom[None]
+        + V * top[None]
+        + (1 - U) * left[:, None]
+        + U * right[:, None]
+        - (1 - U) * (1 - V) * bottom[0]
+        - U * (1 - V) * bottom[-1]
+        - (1 - U) * V * top[0]
+        - U * V * top[-1]
+    )
+
+
+def _normalised(edge: Array) -> Array:
+    s = np.r_[0.0, np.cumsum(np.hypot(*np.diff(edge, axis=0).T))]
+    return np.asarray(s / s[-1])
+
+
+def _block_corners(profile: RailProfile) -> list[tuple[float, float]]:
+    """Where the blocks' corners sit on the right half of the outline, from top to bottom."""
+    z = profile.heights
+    gauge_corner = 0.9 * profile.half_width(np.array([z["side_top"]]))[0]
+    levels = [
+        0.5 * (z["side_bottom"] + z["head_corner"]),
+        z["head_bottom_axis"],
+        z["foot_top_axis"],
+    ]
+    half = profile.half_width(np.array(levels))
+    return [
+        (gauge_corner, float(profile.running_surface(gauge_corner))),
+        *zip(half.tolist(), levels, strict=True),
+        # middle of the rounding of the foot's upper edge: the nearest point to its sharp corner
+        (0.5 * profile.foot_width, z["foot_edge_top"] + 0.003),
+        (profile.bearing_half_width, z["foot_bottom"]),
+    ]
+
+
+def rail_section_mesh(
+    profile: RailProfile,
+    size: float = 0.002,
+    symmetric: bool = True,
+    contact_half_width: float = 0.010,
+    coarse: float = 0.009,
+    growth: float = 1.5,
+) -> SectionMesh:
+    """Mesh a rail section, fine at the running surface.
+
+    Parameters
+    ----------
+    profile : RailProfile
+        Outline of the section.
+    size : float
+        Element size at the running surface in m, laterally and in depth.
+    symmetric : bool
+        Mesh the half y >= 0 only.
+    contact_half_width : float
+        Lateral extent of the fine running surface on each side, in m.
+    coarse : float
+        Largest element size away from the running surface, in m.
+    growth : float
+        Ratio of neighbouring element sizes away from the running surface.
+
+    Returns
+    -------
+    SectionMesh
+
+    Raises
+    ------
+    InputError
+        If a size is not positive or too large for the section.
+    """
+    problems = []
+    if not 0 < size <= 0.008:
+        problems.append(f"mesh size = {size} m: must be above 0 and at most 0.008 m")
+    if not 0 < contact_half_width <= 0.025:
+        problems.append(
+            f"contact_half_width = {contact_half_width} m: must be above 0 and at most 0.025 m"
+        )
+    if not size <= coarse <= 0.02:
+        problems.append(f"coarse = {coarse} m: must be at least the mesh size, at most 0.02 m")
+    if not 1.0 < growth <= 3.0:
+        problems.append(f"growth = {growth}: must be above 1 and at most 3")
+    if problems:
+        raise InputError(problems)
+
+    side = profile.half_outline()
+    marks = [_nearest(side, p) for p in _block_corners(profile)]
+    shoulder, head_corner, web_top, web_bottom, foot_top, foot_bottom = marks
+    web_half = side[web_top, 0]
+
+    # columns: the web's share, then the rest of the fine zone, then growing to the shoulder
+    nw = max(2, round(min(web_half, contact_half_width) / size))
+    top_curve = side[0 : shoulder + 1]
+    length = float(np.sum(np.hypot(*np.diff(top_curve, axis=0).T)))
+    fine = np.arange(0.0, contact_half_width + 0.5 * size, size)
+    if len(fine) <= nw:
+        fine = np.arange(nw + 1) * size
+    rest = graded(length - fine[-1], size * growth, growth, coarse)[1:]
+    columns = np.r_[fine, fine[-1] + rest] / length
+    top = _along(top_curve, columns)
+    top[: len(fine), 0] = fine
+    top[:, 1] = profile.running_surface(top[:, 0])
+    web_fraction = np.linspace(0.0, 1.0, nw + 1)
+
+    def straight(z: float, half: float) -> Array:
+        return np.stack([web_fraction * half, np.full(nw + 1, z)], axis=1)
+
+    # head: rows grow downwards from the running surface
+    depth = -side[web_top, 1]
+    rows = graded(depth, size, growth, coarse)
+    head_rows = 1 - rows[::-1] / depth  # fractions from bottom to top
+    under = side[head_corner : web_top + 1][::-1]
+    share = (columns[nw:] - columns[nw]) / (columns[-1] - columns[nw])
+    bottom = np.r_[straight(side[web_top, 1], web_half), _along(under, share)[1:]]
+    left = np.stack([np.zeros(len(rows)), side[web_top, 1] * (1 - head_rows)], axis=1)
+    right = _along(side[shoulder : head_corner + 1][::-1], head_rows)
+    head = _transfinite(bottom, top, left, right)
+
+    # web
+    height = side[web_top, 1] - side[web_bottom, 1]
+    web_rows = np.linspace(0.0, 1.0, 1 + max(4, round(height / coarse)))
+    web_right = _along(side[web_top : web_bottom + 1][::-1], web_rows)
+    web = np.stack([web_fraction * p[0] for p in web_right])
+    web = np.stack([web, np.broadcast_to(web_right[:, 1:2], web.shape)], axis=2)
+
+    # foot: a few layers, columns growing to the tip
+    reach = side[foot_bottom, 0] - side[web_bottom, 0]
+    n_foot = round(reach / coarse)
+    share = np.linspace(0.0, 1.0, n_foot + 1)
+    over = _along(side[web_bottom : foot_top + 1], share)
+    foot_top_edge = np.r_[straight(side[web_bottom, 1], side[web_bottom, 0]), over[1:]]
+    flat = side[web_bottom, 0] + share * reach
+    foot_edge = np.r_[straight(side[-1, 1], side[web_bottom, 0])[:, 0], flat[1:]]
+    foot_low = np.stack([foot_edge, np.full(len(foot_edge), side[-1, 1])], axis=1)
+    layers = np.linspace(0.0, 1.0, 4)
+    z0, z1 = side[-1, 1], side[web_bottom, 1]
+    foot_left = np.stack([np.zeros(len(layers)), z0 + layers * (z1 - z0)], axis=1)
+    foot_right = _along(side[foot_top : foot_bottom + 1][::-1], layers)
+    foot = _transfinite(foot_low, foot_top_edge, foot_left, foot_right)
+
+    nodes, quads, ids = _join(foot, web, head)
+    surface = ids[2][-1, : len(fine)]
+    underside = ids[0][0]
+    if symmetric:
+        return SectionMesh(nodes, quads, surface, underside, True)
+    return _mirrored(SectionMesh(nodes, quads, surface, underside, True))
+
+
+def _nearest(side: Array, point: tuple[float, float]) -> int:
+    return int(np.argmin(np.hypot(side[:, 0] - point[0], side[:, 1] - point[1])))
+
+
+def _join(*blocks: Array) -> tuple[Array, IntArray, list[IntArray]]:
+    """Number the nodes of mapped blocks once, joining coincident ones."""
+    flat = np.vstack([b.reshape(-1, 2) for b in blocks])
+    keys = np.round(flat / 1e-8).astype(np.int64)
+    _, first, inverse = np.unique(keys, axis=0, return_index=True, return_inverse=True)
+    inverse = inverse.ravel()
+    ids, quads, start = [], [], 0
+    for block in blocks:
+        rows, columns, _ = block.shape
+        number = inverse[start : start + rows * columns].reshape(rows, columns)
+        start += rows * columns
+        ids.append(number)
+        quads.append(
+            np.stack(
+                [number[:-1, :-1], number[:-1, 1:], number[1:, 1:], number[1:, :-1]], axis=-1
+            ).reshape(-1, 4)
+        )
+    return flat[first], np.vstack(quads), ids
+
+
+def _mirrored(half: SectionMesh) -> SectionMesh:
+    """The whole section from its right half."""
+    axis = half.plane_of_symmetry
+    n = len(half.nodes)
+    image = np.empty(n, dtype=np.int64)
+    others = np.setdiff1d(np.arange(n), axis)
+    image[axis] = axis
+    image[others] = n + np.arange(len(others))
+    nodes = np.vstack([half.nodes, half.nodes[others] * [-1.0, 1.0]])
+    quads = np.vstack([half.quads, image[half.quads][:, ::-1]])
+
+    def both(ids: IntArray) -> IntArray:
+        return np.r_[image[ids[::-1]][:-1], ids]
+
+    return SectionMesh(nodes, quads, both(half.surface), both(half.foot), False)

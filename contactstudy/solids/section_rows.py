@@ -1,0 +1,109 @@
+"""Functionals of a section plane: surface normals, section mean, mean of the foot."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contactstudy.profiles.rail import RailProfile
+from contactstudy.solids.extrusion import ExtrudedSlice
+from contactstudy.solids.section_mesh import SectionMesh
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class SectionRows:
+    """Rows on the free degrees of freedom of one plane.
+
+    Attributes
+    ----------
+    surface : ndarray (ny, n)
+        Displacement of the fine running-surface nodes along the outward normal.
+    surface_y : ndarray (ny,)
+        Their lateral positions in m.
+    centre : ndarray (n,)
+        Mean vertical displacement of the section, weighted by area: the deflection that
+        beam theory speaks of (Cowper 1966, J. Appl. Mech. 33:335).
+    foot : ndarray (n,)
+        Mean vertical displacement of the foot's underside.
+    weights : ndarray (n,)
+        Share of the section's area that belongs to each degree of freedom.
+    rigid : ndarray (n, r)
+        Beam kinematics of the plane: axial, vertical, rotation about Y; for a whole section
+        also lateral, rotation about Z and about X.
+    """
+
+    surface: Array
+    surface_y: Array
+    centre: Array
+    foot: Array
+    weights: Array
+    rigid: Array
+
+
+def section_rows(section: SectionMesh, profile: RailProfile, piece: ExtrudedSlice) -> SectionRows:
+    """Build the functionals of a plane from its mesh and the smooth profile."""
+    n_nodes = len(section.nodes)
+    y, z = section.nodes.T
+    area = _nodal_areas(section)
+    area /= area.sum()
+
+    def row(nodes: NDArray[np.int64], direction: int, values: Array) -> Array:
+        full = np.zeros(3 * n_nodes)
+        np.add.at(full, 3 * nodes + direction, values)
+        return np.asarray(full[piece.free])
+
+    everywhere = np.arange(n_nodes)
+    # outward normal of z = f(y): (-f', 1)/sqrt(1 + f'^2)
+    slope = profile.running_slope(y[section.surface])
+    length = np.sqrt(1 + slope**2)
+    one = np.ones(1)
+    surface = np.stack(
+        [
+            row(np.array([node]), 2, one / c) + row(np.array([node]), 1, -one * s / c)
+            for node, s, c in zip(section.surface, slope, length, strict=True)
+        ]
+    )
+    width = np.gradient(y[section.foot])
+    width[[0, -1]] *= 0.5
+    zc = float(area @ z)
+    rigid = [
+        row(everywhere, 0, np.ones(n_nodes)),
+        row(everywhere, 2, np.ones(n_nodes)),
+        row(everywhere, 0, -(z - zc)),
+    ]
+    if not section.symmetric:
+        rigid += [
+            row(everywhere, 1, np.ones(n_nodes)),
+            row(everywhere, 0, -y),
+            row(everywhere, 1, -(z - zc)) + row(everywhere, 2, y),
+        ]
+    return SectionRows(
+        surface=surface,
+        surface_y=y[section.surface],
+        centre=row(everywhere, 2, area),
+        foot=row(section.foot, 2, width / width.sum()),
+        weights=np.repeat(area, 3)[piece.free],
+        rigid=np.stack(rigid, axis=1),
+    )
+
+
+def _nodal_areas(section: SectionMesh) -> Array:
+    """Area that belongs to each node: integral of its bilinear shape function."""
+    g = np.array([-1.0, 1.0]) / np.sqrt(3.0)
+    corners = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]], dtype=float)
+    points = section.nodes[section.quads]
+    area = np.zeros(len(section.nodes))
+    for xi in g:
+        for eta in g:
+            N = (1 + xi * corners[:, 0]) * (1 + eta * corners[:, 1]) / 4
+            dN = np.stack(
+                [
+                    corners[:, 0] * (1 + eta * corners[:, 1]) / 4,
+                    corners[:, 1] * (1 + xi * corners[:, 0]) / 4,
+                ]
+            )
+            det = np.linalg.det(np.einsum("ia,maj->mij", dN, points))
+            np.add.at(area, section.quads, det[:, None] * N)
+    return area
