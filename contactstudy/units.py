@@ -47,7 +47,7 @@ def to_si(value: Any, unit: str) -> float:
         raise UnitError(f"must be {example}")
     if isinstance(value, str):
         number, text = _split(value, example)
-        result = number * _factor(text, unit) if text else number
+        result = _short(number * _factor(text, unit)) if text else number
     else:
         result = float(value)
     if not math.isfinite(result):
@@ -72,6 +72,12 @@ def _factor(text: str, unit: str) -> float:
     if given.dimensionality != wanted.dimensionality:
         raise UnitError(f"has the wrong unit '{text}'; allowed: {_allowed(unit)}")
     return float(_registry().Quantity(1.0, given).to(wanted).magnitude)
+
+
+def _short(value: float) -> float:
+    """Undo the last-bit noise of a conversion: 50 µs is 5e-05 s, not 4.9999999999999996e-05 s."""
+    rounded = float(f"{value:.15g}")
+    return rounded if len(repr(rounded)) < len(repr(value)) - 2 else value
 
 
 def _allowed(unit: str) -> str:

@@ -1,0 +1,139 @@
+"""What is impossible only in combination: keys against each other."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from contactstudy.study.messages import complaint
+from contactstudy.study.schema import (
+    IrregularityTable,
+    JourneyTable,
+    PointRun,
+    RunTable,
+    Section,
+    SolidTable,
+    TrackTable,
+)
+
+_SLACK = 1e-9  # relative, for lengths that were given in decimal
+
+
+def inapplicable(path: str, section: Section) -> list[str]:
+    """Complaints about keys that were given but mean nothing beside the other values."""
+    problems = []
+    for key in sorted(section.model_fields_set):
+        if not section.applicable(key):
+            decider, values = section.applies[key]
+            quoted = " or ".join(f'"{v}"' for v in values)
+            chosen = getattr(section, decider)
+            text = f"applies only with {decider} = {quoted} (here {chosen!r})".replace("'", '"')
+            problems.append(f"{path}.{key}: {text}")
+    return problems
+
+
+def combined(sections: Mapping[str, Any], runs: Mapping[str, RunTable]) -> list[str]:
+    """Complaints about values that are fine alone; tables that failed are left out."""
+    problems: list[str] = []
+    track: TrackTable | None = sections.get("track")
+    journey: JourneyTable | None = sections.get("journey")
+    solid: SolidTable | None = sections.get("solid")
+    irregularity: IrregularityTable | None = sections.get("irregularity")
+    if irregularity is not None:
+        problems += _irregularity(irregularity, runs)
+    if track is not None:
+        problems += _track(track)
+    if journey is not None:
+        problems += _journey(journey, runs)
+    if journey is not None and track is not None:
+        problems += _journey_on_track(journey, track)
+    if solid is not None and track is not None and any(r.needs_solid for r in runs.values()):
+        problems += _solid_on_track(solid, track)
+    return problems
+
+
+def _increasing(path: str, pair: tuple[float, float], unit: str) -> list[str]:
+    if pair[0] < pair[1]:
+        return []
+    return [complaint(path, list(pair), f"must increase, lowest first ({unit})")]
+
+
+def _irregularity(table: IrregularityTable, runs: Mapping[str, RunTable]) -> list[str]:
+    problems = _increasing("irregularity.band", table.band, "rad/m")
+    problems += _increasing("irregularity.wavelengths", table.wavelengths, "m")
+    if table.spectrum == "measured" and not table.file:
+        problems.append(
+            "irregularity.file: is missing; a measured irregularity needs a CSV file "
+            "(--set irregularity.file=PATH)"
+        )
+    if (table.file or table.measured_overlay) and not table.level_column:
+        problems.append(
+            "irregularity.level_column: is missing; name the column of the CSV with the level"
+        )
+    return problems
+
+
+def _whole(ratio: float) -> bool:
+    return ratio > 0.5 and abs(ratio - round(ratio)) <= _SLACK * ratio
+
+
+def _track(track: TrackTable) -> list[str]:
+    problems = []
+    if track.support == "discrete":
+        if not _whole(track.length / track.spacing):
+            allowed = f"must be a whole number of support spacings of {track.spacing:g} m"
+            problems.append(complaint("track.length", track.length, f"{allowed} (m)"))
+        if track.pad_length >= track.spacing:
+            allowed = f"must be below the support spacing, {track.spacing:g} m"
+            problems.append(complaint("track.pad_length", track.pad_length, allowed))
+    if track.support == "none" and track.ends == "free":
+        problems.append(complaint("track.ends", "free", "nothing holds a rail without support"))
+    return problems
+
+
+def _journey(journey: JourneyTable, runs: Mapping[str, RunTable]) -> list[str]:
+    if journey.start >= journey.end:
+        allowed = f"must be beyond journey.from, {journey.start:g} m"
+        return [complaint("journey.to", journey.end, allowed)]
+    problems = []
+    distance = journey.end - journey.start
+    if journey.fade_in >= distance:
+        allowed = f"must be below the distance run, {distance:g} m"
+        problems.append(complaint("journey.fade_in", journey.fade_in, allowed))
+    duration = distance / journey.speed
+    steps = {"journey.time_step": journey.time_step}
+    steps |= {f"runs.{n}.time_step": r.time_step for n, r in runs.items() if r.time_step}
+    for path, step in steps.items():
+        if step > duration / 2:
+            allowed = f"must be at most half the duration of the run, {duration / 2:.3g} s"
+            problems.append(complaint(path, step, allowed))
+    return problems
+
+
+def _journey_on_track(journey: JourneyTable, track: TrackTable) -> list[str]:
+    where = f"must lie on the track, 0 to {track.length:g} m"
+    points = {"journey.from": journey.start, "journey.to": journey.end}
+    points |= {f"journey.stations.{i}": x for i, x in enumerate(journey.stations)}
+    return [complaint(k, x, where) for k, x in points.items() if x > track.length]
+
+
+def _solid_on_track(solid: SolidTable, track: TrackTable) -> list[str]:
+    problems = []
+    if track.rail == "given":
+        problems.append(
+            complaint("track.rail", "given", 'surface contact needs a rail with a profile: "60E1"')
+        )
+    spacing = track.spacing if track.support == "discrete" else track.length
+    if not _whole(spacing / solid.cell_length):
+        allowed = f"must divide {spacing:g} m into whole cells (m)"
+        problems.append(complaint("solid.cell_length", solid.cell_length, allowed))
+    return problems
+
+
+def lateral_surface(runs: Mapping[str, RunTable]) -> list[str]:
+    """Complaints about point runs that combine what the solid rail cannot do."""
+    return [
+        complaint(f"runs.{name}.direction", run.direction, 'must be "Z" on the solid rail')
+        for name, run in runs.items()
+        if isinstance(run, PointRun) and run.rail == "solid" and run.direction == "Y"
+    ]

@@ -1,0 +1,198 @@
+"""Study files: find, read, override, and report everything that is wrong with them at once."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+
+from contactstudy.exceptions import InputError
+from contactstudy.resources import resource
+from contactstudy.study import checks
+from contactstudy.study.messages import complaint, did_you_mean, from_validation, unknown
+from contactstudy.study.schema import SECTIONS, SOLVERS, Section, Study
+
+_TOP_LEVEL = ("title", "description", "companions", *SECTIONS, "runs", "compare")
+_RUN_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
+_PATHS = ("file", "measured_overlay")
+
+
+def shipped_studies() -> dict[str, Path]:
+    """Name -> file of the studies that come with the program, in alphabetical order."""
+    return {path.stem: path for path in sorted(resource("studies").glob("*.toml"))}
+
+
+def find_study(study: str | Path) -> Path:
+    """Path of a study given by path or by the name of a shipped one.
+
+    Raises
+    ------
+    InputError
+        With close matches when there is no such study.
+    """
+    path, name = Path(study), str(study)
+    if path.is_file():
+        return path
+    shipped = shipped_studies()
+    stem = name.removesuffix(".toml")
+    if stem in shipped:
+        return shipped[stem]
+    hint = did_you_mean(Path(stem).name, shipped)
+    raise InputError(
+        f"study {name}: no such file nor shipped study{hint}; shipped: {', '.join(shipped)}"
+    )
+
+
+def load_study(study: str | Path, overrides: Iterable[str] = ()) -> Study:
+    """Read a study file, apply overrides, and check it.
+
+    Parameters
+    ----------
+    study : str or Path
+        A path, or the name of a shipped study.
+    overrides : iterable of str
+        ``key=value`` with dotted keys; values as in TOML, quotes around text may be left out.
+
+    Raises
+    ------
+    InputError
+        Listing every problem: unknown keys, wrong units, impossible values.
+    """
+    path = find_study(study)
+    try:
+        data = tomllib.loads(path.read_text("utf-8"))
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise InputError(f"{path}: is not a TOML file ({error})") from error
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read ({error.strerror})") from error
+    _resolve_paths(data, path.parent)
+    problems = []
+    for text in overrides:
+        problems += _override(data, text)
+    return parse_study(path.stem, data, problems)
+
+
+def parse_study(name: str, data: Mapping[str, Any], problems: Iterable[str] = ()) -> Study:
+    """Check the content of a study file (as TOML gives it); further `problems` are included.
+
+    Raises
+    ------
+    InputError
+        Listing every problem.
+    """
+    found = list(problems)
+    found += [unknown("", key, _TOP_LEVEL) for key in data if key not in _TOP_LEVEL]
+    sections: dict[str, Any] = {}
+    for key, model in SECTIONS.items():
+        section, wrong = _section(model, data.get(key, {}), key)
+        found += wrong
+        if section is not None:
+            sections[key] = section
+    runs, wrong = _runs(data.get("runs", {}))
+    found += wrong
+    found += checks.combined(sections, runs) + checks.lateral_surface(runs)
+    texts, wrong = _texts(name, data)
+    found += wrong
+    reference, wrong = _reference(data, list(data["runs"]) if runs else [])
+    found += wrong
+    if found:
+        raise InputError(found)
+    return Study(name=name, **texts, **sections, runs=runs, reference=reference)
+
+
+def _section(model: type[Section], data: Any, path: str) -> tuple[Any, list[str]]:
+    if not isinstance(data, Mapping):
+        return None, [complaint(path, data, "must be a table")]
+    try:
+        section = model.model_validate(data)
+    except ValidationError as error:
+        return None, from_validation(error, model, path)
+    return section, checks.inapplicable(path, section)
+
+
+def _runs(data: Any) -> tuple[dict[str, Any], list[str]]:
+    if not isinstance(data, Mapping):
+        return {}, [complaint("runs", data, "must hold one table a run, [runs.NAME]")]
+    runs, problems = {}, []
+    for name, table in data.items():
+        path = f"runs.{name}"
+        if not _RUN_NAME.fullmatch(name):
+            problems.append(f"{path}: a run's name is letters, digits and _, a letter first")
+        if not isinstance(table, Mapping) or "solver" not in table:
+            problems.append(f'{path}.solver: is missing; must be "point" or "surface"')
+            continue
+        solver = table["solver"]
+        if not isinstance(solver, str) or solver not in SOLVERS:
+            hint = did_you_mean(str(solver), SOLVERS)
+            allowed = f'must be "point" or "surface"{hint}'
+            problems.append(complaint(f"{path}.solver", solver, allowed))
+            continue
+        run, wrong = _section(SOLVERS[solver], table, path)
+        problems += wrong
+        if run is not None:
+            runs[name] = run
+    return runs, problems
+
+
+def _texts(name: str, data: Mapping[str, Any]) -> tuple[dict[str, Any], list[str]]:
+    title, description = data.get("title", name), data.get("description", "")
+    companions = data.get("companions", [])
+    problems = [
+        complaint(key, value, "must be text")
+        for key, value in (("title", title), ("description", description))
+        if not isinstance(value, str)
+    ]
+    if not isinstance(companions, list) or not all(isinstance(c, str) for c in companions):
+        problems.append(complaint("companions", companions, "must be a list of names of studies"))
+        companions = []
+    texts = {"title": title, "description": description, "companions": tuple(companions)}
+    return texts, problems
+
+
+def _reference(data: Mapping[str, Any], runs: list[str]) -> tuple[str | None, list[str]]:
+    table = data.get("compare", {})
+    if not isinstance(table, Mapping):
+        return None, [complaint("compare", table, "must be a table")]
+    problems = [unknown("compare", key, ["reference"]) for key in table if key != "reference"]
+    reference = table.get("reference", runs[0] if len(runs) > 1 else None)
+    if reference is not None and reference not in runs:
+        allowed = f"must be a run of the study: {', '.join(runs) or 'it has none'}"
+        hint = did_you_mean(str(reference), runs)
+        problems.append(complaint("compare.reference", reference, allowed + hint))
+    return reference, problems
+
+
+def _resolve_paths(data: dict[str, Any], base: Path) -> None:
+    """Paths inside a study file are relative to the file."""
+    table = data.get("irregularity")
+    if isinstance(table, dict):
+        for key in _PATHS:
+            if isinstance(table.get(key), str) and table[key]:
+                table[key] = str(base / table[key])
+
+
+def _override(data: dict[str, Any], text: str) -> list[str]:
+    key, equals, value = text.partition("=")
+    parts = key.strip().split(".")
+    if not equals or not all(parts):
+        return [f"--set {text}: must be KEY=VALUE with a dotted key, e.g. journey.speed='250 km/h'"]
+    table = data
+    for part in parts[:-1]:
+        table = table.setdefault(part, {})
+        if not isinstance(table, dict):
+            return [f"--set {text}: {key.strip()} goes through a value that is no table"]
+    table[parts[-1]] = _value(value.strip())
+    return []
+
+
+def _value(text: str) -> Any:
+    """Read `text` as a TOML value, else take it as the text itself."""
+    try:
+        parsed = tomllib.loads(f"value = {text}")
+    except tomllib.TOMLDecodeError:
+        return text
+    return parsed["value"] if list(parsed) == ["value"] else text

@@ -1,0 +1,56 @@
+"""Types of the keys of a study file: each reads text with a unit and knows its limits."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+from pydantic import BeforeValidator
+from pydantic.fields import FieldInfo
+
+from contactstudy.units import Limits, one_of_or
+
+Length = Annotated[float, BeforeValidator(Limits("m", above=0.0))]
+LengthOrZero = Annotated[float, BeforeValidator(Limits("m", at_least=0.0))]
+Position = Annotated[float, BeforeValidator(Limits("m"))]
+Speed = Annotated[float, BeforeValidator(Limits("m/s", above=0.0))]
+Duration = Annotated[float, BeforeValidator(Limits("s", above=0.0))]
+Wavenumber = Annotated[float, BeforeValidator(Limits("rad/m", above=0.0))]
+Mass = Annotated[float, BeforeValidator(Limits("kg", above=0.0))]
+MassOrZero = Annotated[float, BeforeValidator(Limits("kg", at_least=0.0))]
+MassPerLength = Annotated[float, BeforeValidator(Limits("kg/m", above=0.0))]
+Density = Annotated[float, BeforeValidator(Limits("kg/m^3", above=0.0))]
+Force = Annotated[float, BeforeValidator(Limits("N", above=0.0))]
+Stiffness = Annotated[float, BeforeValidator(Limits("N/m", above=0.0))]
+Damping = Annotated[float, BeforeValidator(Limits("N*s/m", at_least=0.0))]
+BedStiffness = Annotated[float, BeforeValidator(Limits("N/m^2", above=0.0))]
+BedDamping = Annotated[float, BeforeValidator(Limits("N*s/m^2", at_least=0.0))]
+Modulus = Annotated[float, BeforeValidator(Limits("Pa", above=0.0))]
+Penalty = Annotated[float, BeforeValidator(Limits("Pa/m", above=0.0))]
+BendingStiffness = Annotated[float, BeforeValidator(Limits("N*m^2", above=0.0))]
+Area = Annotated[float, BeforeValidator(Limits("m^2", above=0.0))]
+Ratio = Annotated[float, BeforeValidator(Limits("", at_least=0.0, at_most=0.49))]
+Fraction = Annotated[float, BeforeValidator(Limits("", at_least=0.0, at_most=1.0))]
+Coefficient = Annotated[float, BeforeValidator(Limits("", above=0.0))]
+Count = Annotated[int, BeforeValidator(Limits("", at_least=1, whole=True))]
+CountOrZero = Annotated[int, BeforeValidator(Limits("", at_least=0, whole=True))]
+
+CONTACT_STIFFNESS = Limits("N/m", above=0.0)
+ContactStiffness = Annotated[
+    float | str, BeforeValidator(one_of_or(("tangent", "rigid"), CONTACT_STIFFNESS))
+]
+
+
+def unit_of(field: FieldInfo) -> str:
+    """SI unit of a field made with the types above (also inside a list), "" for none."""
+    return _find_unit(field.metadata) or _find_unit([field.annotation])
+
+
+def _find_unit(parts: list[Any]) -> str:
+    for part in parts:
+        if isinstance(part, BeforeValidator):
+            limits = part.func if isinstance(part.func, Limits) else CONTACT_STIFFNESS
+            return limits.unit
+        inner = [*getattr(part, "__metadata__", ()), *getattr(part, "__args__", ())]
+        if found := _find_unit(inner):
+            return found
+    return ""
