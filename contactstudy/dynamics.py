@@ -1,0 +1,279 @@
+"""The time stepper: a linear system in contact, as a generator of states.
+
+Everything linear is factored once. With S = (1-am)/(beta dt^2) M + (1-af) gamma/(beta dt) C
++ (1-af) K a step is
+
+    u(n+1) = u* + (1-af) S^-1 B^T lambda(n+1),
+
+where the free response u* follows from the state before and the external load, and lambda are
+the contact forces on the gap rows B (+1 on the wheel, minus the rail's row). A contact law, a
+`Coupling`, never sees the track: it gets u* and returns the load B^T lambda and the increment.
+"""
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+import scipy.sparse as sp
+from numba import njit
+
+from contactstudy.banded import Factor, LinearSystem
+from contactstudy.exceptions import NumericalError
+from contactstudy.integrators import (
+    Integrator,
+    average_acceleration,
+    generalised_alpha,
+    newmark,
+)
+from contactstudy.validation import positive, raise_if
+
+__all__ = [
+    "ContactStep",
+    "Coupling",
+    "Integrator",
+    "State",
+    "average_acceleration",
+    "generalised_alpha",
+    "march",
+    "newmark",
+    "static_start",
+]
+
+
+@dataclass(frozen=True)
+class ContactStep:
+    """What the contact does in one step.
+
+    Parameters
+    ----------
+    load : ndarray
+        (n,) generalised force B^T lambda of all contacts on the system [N].
+    increment : ndarray
+        (n,) scale * S^-1 load, the change of the free displacements.
+    record : mapping
+        What is worth keeping, under the names of the dataset's variables: "contact_force"
+        (nw,) always [N]; whatever else the law knows.
+    """
+
+    load: np.ndarray
+    increment: np.ndarray
+    record: Mapping[str, np.ndarray | float]
+
+
+class Coupling(Protocol):
+    """A contact law joined to the moving wheel positions, known for every step."""
+
+    def attach(self, factor: Factor, scale: float) -> None:
+        """Take the factor of the system that the next calls belong to.
+
+        Called once before the static start (stiffness with auxiliary springs under the wheels,
+        scale 1) and once before the first step (S, scale 1 - alpha_f).
+        """
+
+    def __call__(self, step: int, u_free: np.ndarray) -> ContactStep:
+        """Contact at the end of a step.
+
+        Parameters
+        ----------
+        step : int
+            0 is the start (asked several times by the static start), then 1, 2, ...
+        u_free : ndarray
+            (n,) displacements at the end of the step if there were no contact. The coupling
+            returns the load that is in equilibrium with `u_free + increment`.
+        """
+
+
+@dataclass(frozen=True)
+class State:
+    """All that is known at the end of a step.
+
+    Parameters
+    ----------
+    step : int
+    time : float
+        Since the start [s].
+    u, v, a : ndarray
+        (n,) displacements, velocities and accelerations.
+    load : ndarray
+        (n,) total load, external and contact.
+    contact : ContactStep or None
+    """
+
+    step: int
+    time: float
+    u: np.ndarray
+    v: np.ndarray
+    a: np.ndarray
+    load: np.ndarray
+    contact: ContactStep | None = None
+
+
+def march(
+    system: LinearSystem,
+    coupling: Coupling | None,
+    start: State,
+    dt: float,
+    n_steps: int,
+    integrator: Integrator,
+    external: np.ndarray | Callable[[int], np.ndarray],
+    position: Callable[[int], float] | None = None,
+) -> Iterator[State]:
+    """Step through time; yields the states after steps 1 .. n_steps.
+
+    Parameters
+    ----------
+    system : LinearSystem
+    coupling : Coupling or None
+        None: no contact.
+    start : State
+        At step 0, with accelerations and load that satisfy the equation of motion.
+    dt : float
+        [s].
+    n_steps : int
+    integrator : Integrator
+    external : ndarray or callable
+        (n,) constant load, or the load at the end of each step.
+    position : callable, optional
+        Position of the leading wheel at a step, for the message when something breaks down.
+
+    Raises
+    ------
+    InputError
+        For a time step that is not positive.
+    NumericalError
+        If S cannot be factored or a state is not finite; says at which step.
+    """
+    raise_if(positive("time step", dt, "s"))
+    beta, gamma = integrator.beta, integrator.gamma
+    wm, wf = 1.0 - integrator.alpha_m, 1.0 - integrator.alpha_f
+    alpha_m, alpha_f = integrator.alpha_m, integrator.alpha_f
+    # a(n+1) = c0 (u(n+1) - u) - c2 v - c3 a;  v(n+1) = v + dt ((1-gamma) a + gamma a(n+1))
+    c0, c2, c3 = 1.0 / (beta * dt**2), 1.0 / (beta * dt), 1.0 / (2.0 * beta) - 1.0
+    # v(n+1) = d0 (u(n+1) - u) + d2 v + d3 a
+    d0, d2, d3 = gamma / (beta * dt), 1.0 - gamma / beta, dt * (1.0 - gamma / (2.0 * beta))
+
+    factor = Factor(system.combine(wm * c0, wf * d0, wf))
+    if coupling is not None:
+        coupling.attach(factor, wf)
+    mass, damping, stiffness = map(_parts, (system.mass, system.damping, system.stiffness))
+    load_at = external if callable(external) else lambda step: external
+    u, v, a, load = start.u, start.v, start.a, start.load
+    for step in range(1, n_steps + 1):
+        ext = load_at(step)
+        # S u* = (1-af) f_ext(n+1) + af f(n) + M(...) + C(...) - af K u
+        rhs = wf * ext
+        _add_product(*mass, wm * (c0 * u + c2 * v + c3 * a) - alpha_m * a, rhs)
+        _add_product(*damping, wf * (d0 * u - d2 * v - d3 * a) - alpha_f * v, rhs)
+        if alpha_f != 0.0:
+            rhs += alpha_f * load
+            _add_product(*stiffness, -alpha_f * u, rhs)
+        u_new = factor.solve(rhs)
+        contact = None
+        load = ext
+        if coupling is not None:
+            contact = coupling(step, u_new)
+            u_new = u_new + contact.increment
+            load = ext + contact.load
+        a_new = c0 * (u_new - u) - c2 * v - c3 * a
+        v = v + dt * ((1.0 - gamma) * a + gamma * a_new)
+        u, a = u_new, a_new
+        if not np.isfinite(a.sum()):
+            where = f" (wheel at X = {position(step):.3f} m)" if position else ""
+            raise NumericalError(
+                f"the state is not finite after step {step} of {n_steps},"
+                f" t = {step * dt:.6g} s{where}"
+            )
+        yield State(step, step * dt, u, v, a, load, contact)
+
+
+def static_start(
+    system: LinearSystem,
+    coupling: Coupling,
+    external: np.ndarray,
+    wheel_dofs: np.ndarray,
+    auxiliary_stiffness: float = 1e9,
+    tolerance: float = 1e-11,
+) -> State:
+    """Equilibrium with the contact at step 0: K u = external + B^T lambda(u), at rest.
+
+    A vehicle on its own has rigid modes, so K is singular. Springs under the wheels make it
+    regular; their feet z are moved until the springs carry no force (Broyden's method, exact
+    after two moves for one wheel and a linear law). So any law, any number of wheels and any
+    vehicle start in equilibrium, with the resultants that statics asks for.
+
+    Parameters
+    ----------
+    system : LinearSystem
+    coupling : Coupling
+    external : ndarray
+        (n,) constant load.
+    wheel_dofs : ndarray
+        (nw,) dofs of the system that are wheels.
+    auxiliary_stiffness : float
+        Of each spring under a wheel [N/m].
+    tolerance : float
+        Largest force left in a spring, relative to the largest load.
+
+    Returns
+    -------
+    State
+        Step 0, with zero velocities and accelerations.
+
+    Raises
+    ------
+    NumericalError
+        If K is singular for another reason than free wheels, or no equilibrium is found.
+    """
+    n, kappa = system.n_dofs, auxiliary_stiffness
+    springs = np.zeros(n)
+    springs[wheel_dofs] = kappa
+    factor = Factor(system.stiffness + sp.diags_array(springs))
+    coupling.attach(factor, 1.0)
+
+    def spring_forces(feet: np.ndarray) -> tuple[np.ndarray, np.ndarray, ContactStep]:
+        load = np.array(external, dtype=float)
+        load[wheel_dofs] += kappa * feet
+        u_free = factor.solve(load)
+        contact = coupling(0, u_free)
+        u = u_free + contact.increment
+        return kappa * (u[wheel_dofs] - feet), u, contact
+
+    feet = np.zeros(len(wheel_dofs))
+    inverse = -np.eye(len(wheel_dofs)) / kappa  # of d(force)/d(feet), exact for a rigid vehicle
+    force, u, contact = spring_forces(feet)
+    for _ in range(100):
+        scale = max(np.abs(external).max(), np.abs(contact.load).max(), 1e-300)
+        if np.abs(force).max() <= tolerance * scale:
+            rest = np.zeros(n)
+            return State(0, 0.0, u, rest, rest, external + contact.load, contact)
+        move = -inverse @ force
+        feet = feet + move
+        before = force
+        force, u, contact = spring_forces(feet)
+        if not np.all(np.isfinite(force)):
+            break
+        # Broyden's update keeps inverse @ (change of force) = move
+        along = inverse @ (force - before)
+        inverse = inverse + np.outer(move - along, move @ inverse) / (move @ along)
+    raise NumericalError(
+        "no static equilibrium found at the start:"
+        f" {np.abs(force).max():.3g} N left under a wheel with {scale:.3g} N to carry"
+    )
+
+
+def _parts(matrix: sp.csr_array) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    csr = sp.csr_array(matrix)
+    return csr.indptr.astype(np.int64), csr.indices.astype(np.int64), csr.data
+
+
+@njit(cache=True, fastmath={"reassoc", "contract"})
+def _add_product(
+    indptr: np.ndarray, indices: np.ndarray, data: np.ndarray, x: np.ndarray, y: np.ndarray
+) -> None:
+    """y += A x for a matrix in compressed rows."""
+    for row in range(len(y)):
+        total = 0.0
+        for k in range(indptr[row], indptr[row + 1]):
+            total += data[k] * x[indices[k]]
+        y[row] += total

@@ -1,0 +1,101 @@
+"""Time integrators of the generalised-alpha family, each declaring its order.
+
+M a(n+1-am) + C v(n+1-af) + K u(n+1-af) = f(n+1-af), with x(n+1-al) = (1-al) x(n+1) + al x(n),
+on Newmark's kinematics
+
+    u(n+1) = u + dt v + dt^2 ((1/2 - beta) a + beta a(n+1))
+    v(n+1) = v + dt ((1 - gamma) a + gamma a(n+1)).
+
+N. M. Newmark, J. Eng. Mech. Div. ASCE 85 (1959) 67; J. Chung and G. M. Hulbert, J. Appl. Mech.
+60 (1993) 371.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from contactstudy.exceptions import InputError
+
+
+@dataclass(frozen=True)
+class Integrator:
+    """One member of the family; make it with the functions below.
+
+    Parameters
+    ----------
+    name : str
+    beta, gamma, alpha_m, alpha_f : float
+    order : int
+        Order of accuracy of displacements and velocities in time.
+    """
+
+    name: str
+    beta: float
+    gamma: float
+    alpha_m: float
+    alpha_f: float
+    order: int
+
+    @property
+    def constraint_radius(self) -> float:
+        """Spectral radius of the response to a displacement that is prescribed every step.
+
+        Below 1, an error in the acceleration or in the force of a rigid constraint dies out. For
+        average acceleration it is 1 with a double root: there such errors grow linearly.
+        """
+        # u(n) = 0 for all n leaves (dt v, dt^2 a) -> matrix (dt v, dt^2 a)
+        beta, gamma = self.beta, self.gamma
+        matrix = np.array(
+            [
+                [1.0 - gamma / beta, 1.0 - gamma / (2.0 * beta)],
+                [-1.0 / beta, 1.0 - 1.0 / (2.0 * beta)],
+            ]
+        )
+        # and the force averaged by alpha_f: (1 - af) lambda(n+1) + af lambda(n) = given
+        force = self.alpha_f / (1.0 - self.alpha_f)
+        return float(max(np.abs(np.linalg.eigvals(matrix)).max(), force))
+
+
+def average_acceleration() -> Integrator:
+    """Newmark's method with beta = 1/4, gamma = 1/2: no numerical damping, conserves energy."""
+    return Integrator("average acceleration", 0.25, 0.5, 0.0, 0.0, order=2)
+
+
+def newmark(beta: float, gamma: float) -> Integrator:
+    """Newmark's method; first order when gamma > 1/2.
+
+    Raises
+    ------
+    InputError
+        If the method is not unconditionally stable, 2 beta >= gamma >= 1/2.
+    """
+    if not 2.0 * beta >= gamma >= 0.5:
+        raise InputError(
+            f"newmark(beta = {beta:g}, gamma = {gamma:g}): must satisfy 2 beta >= gamma >= 1/2,"
+            " or the method is not unconditionally stable"
+        )
+    order = 2 if gamma == 0.5 else 1
+    return Integrator(f"Newmark (beta {beta:g}, gamma {gamma:g})", beta, gamma, 0.0, 0.0, order)
+
+
+def generalised_alpha(spectral_radius: float = 0.8) -> Integrator:
+    """Generalised-alpha method of Chung and Hulbert.
+
+    Parameters
+    ----------
+    spectral_radius : float
+        rho at infinite frequency, 0 to 1; 1 has no numerical damping.
+
+    Raises
+    ------
+    InputError
+        If the spectral radius is outside 0..1.
+    """
+    rho = spectral_radius
+    if not 0.0 <= rho <= 1.0:
+        raise InputError(f"generalised_alpha spectral_radius = {rho:g}: must lie between 0 and 1")
+    alpha_m, alpha_f = (2.0 * rho - 1.0) / (rho + 1.0), rho / (rho + 1.0)
+    gamma = 0.5 - alpha_m + alpha_f
+    beta = 0.25 * (1.0 - alpha_m + alpha_f) ** 2
+    name = f"generalised alpha (spectral radius {rho:g})"
+    return Integrator(name, beta, gamma, alpha_m, alpha_f, order=2)

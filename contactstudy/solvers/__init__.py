@@ -1,0 +1,1 @@
+"""The solvers: put track, vehicle, irregularity and contact law together, return a dataset."""

@@ -1,0 +1,82 @@
+"""The labelled result of one run, the same for both solvers."""
+
+from collections.abc import Mapping
+
+import numpy as np
+import xarray as xr
+
+from contactstudy.solvers.journey import Journey
+
+SIGNALS: dict[str, tuple[str, str]] = {
+    "contact_force": ("N", "contact force, positive in compression"),
+    "wheel_displacement": ("m", "vertical displacement of the wheel, up"),
+    "wheel_acceleration": ("m/s^2", "vertical acceleration of the wheel, up"),
+    "rail_displacement": ("m", "displacement of the rail's centre line at the wheel, up"),
+    "irregularity": ("m", "irregularity under the wheel, faded in, up"),
+    "contact_area": ("m^2", "contact area"),
+    "peak_pressure": ("Pa", "largest contact pressure"),
+    "penetration": ("m", "largest penetration left by the penalty"),
+}
+"""Unit and description of every history that a solver may record."""
+
+
+def history_dataset(
+    journey: Journey,
+    positions: np.ndarray,
+    histories: Mapping[str, np.ndarray],
+    *,
+    station_displacement: np.ndarray | None = None,
+    attrs: Mapping[str, object] | None = None,
+) -> xr.Dataset:
+    """Label the histories of a run.
+
+    Parameters
+    ----------
+    journey : Journey
+    positions : ndarray
+        (n_times, n_wheels) X of the wheels [m].
+    histories : mapping
+        Name in `SIGNALS` to (n_times,) or (n_times, n_wheels).
+    station_displacement : ndarray, optional
+        (n_times, n_stations) rail displacement at the journey's stations [m].
+    attrs : mapping, optional
+        What describes the run; lists and plain values only.
+
+    Returns
+    -------
+    xarray.Dataset
+        Dimension `time` [s] and, with several wheels, a leading `wheel`; coordinate `position`.
+    """
+    one_wheel = positions.shape[1] == 1
+
+    def variable(values: np.ndarray, unit: str, text: str) -> xr.Variable:
+        attributes = {"units": unit, "long_name": text}
+        values = np.asarray(values)
+        if values.ndim == 1:
+            return xr.Variable(("time",), values, attributes)
+        if one_wheel:
+            return xr.Variable(("time",), values[:, 0], attributes)
+        return xr.Variable(("wheel", "time"), np.ascontiguousarray(values.T), attributes)
+
+    data = {
+        name: variable(values, *SIGNALS.get(name, ("", name.replace("_", " "))))
+        for name, values in histories.items()
+    }
+    coords = {
+        "time": xr.Variable(("time",), journey.times, {"units": "s", "long_name": "time"}),
+        "position": variable(positions, "m", "position of the wheel along the rail"),
+    }
+    if not one_wheel:
+        coords["wheel"] = xr.Variable(("wheel",), np.arange(positions.shape[1]))
+    if station_displacement is not None and len(journey.stations):
+        data["station_displacement"] = xr.Variable(
+            ("station", "time"),
+            np.ascontiguousarray(station_displacement.T),
+            {"units": "m", "long_name": "displacement of the rail's centre line, up"},
+        )
+        coords["station"] = xr.Variable(
+            ("station",),
+            np.asarray(journey.stations),
+            {"units": "m", "long_name": "position along the rail"},
+        )
+    return xr.Dataset(data, coords, dict(attrs or {}))

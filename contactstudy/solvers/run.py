@@ -1,0 +1,214 @@
+"""The run that both solvers share: static start, time steps, recorded histories."""
+
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+import scipy.sparse as sp
+import xarray as xr
+
+from contactstudy.banded import LinearSystem
+from contactstudy.dynamics import Coupling, Integrator, State, march, static_start
+from contactstudy.solvers.dataset import history_dataset
+from contactstudy.solvers.journey import Journey
+from contactstudy.track.model import Direction
+from contactstudy.vehicle import Vehicle
+
+Irregularity = Callable[[np.ndarray], np.ndarray]
+Progress = Callable[[int, int], None]
+
+STEPS_PER_REPORT = 100
+"""How many steps pass between two calls of `progress`."""
+
+
+class DiscreteTrack(Protocol):
+    """What a discretised track offers, beam or solid."""
+
+    @property
+    def n_dofs(self) -> int:
+        """Number of dofs."""
+
+    @property
+    def mass(self) -> sp.csr_array:
+        """Mass matrix."""
+
+    @property
+    def damping(self) -> sp.csr_array:
+        """Damping matrix."""
+
+    @property
+    def stiffness(self) -> sp.csr_array:
+        """Stiffness matrix."""
+
+    def rail_rows(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Dofs and weights (m, k) of the displacement of the rail's centre line at X (m,)."""
+
+    def local_compliance(self, x: np.ndarray) -> np.ndarray:
+        """Compliance under the load that the dofs leave out, (m,) [m/N]."""
+
+
+@dataclass(frozen=True)
+class Assembly:
+    """A track with a vehicle on it, not yet in contact.
+
+    Parameters
+    ----------
+    track : DiscreteTrack
+    vehicle : Vehicle
+    direction : {"Z", "Y"}
+        Static loads act in Z only.
+    """
+
+    track: DiscreteTrack
+    vehicle: Vehicle
+    direction: Direction = "Z"
+
+    @property
+    def system(self) -> LinearSystem:
+        """Matrices of the track's dofs followed by the vehicle's."""
+        track, vehicle = self.track, self.vehicle
+        return LinearSystem.stacked(
+            LinearSystem(track.mass, track.damping, track.stiffness),
+            LinearSystem(
+                *(sp.csr_array(m) for m in (vehicle.mass, vehicle.damping, vehicle.stiffness))
+            ),
+        )
+
+    @property
+    def n_dofs(self) -> int:
+        """Number of dofs of track and vehicle."""
+        return self.track.n_dofs + self.vehicle.n_dofs
+
+    @property
+    def wheel_dofs(self) -> np.ndarray:
+        """(nw,) dofs of the system that are wheels."""
+        return self.track.n_dofs + np.asarray(self.vehicle.wheel_dofs, dtype=np.int64)
+
+    @property
+    def static_loads(self) -> np.ndarray:
+        """(nw,) static load of each wheel in the direction of the analysis [N]."""
+        loads = np.asarray(self.vehicle.static_loads, dtype=float)
+        return loads if self.direction == "Z" else np.zeros_like(loads)
+
+    @property
+    def external(self) -> np.ndarray:
+        """(n_dofs,) constant load: minus the static load on each wheel."""
+        load = np.zeros(self.n_dofs)
+        np.add.at(load, self.wheel_dofs, -self.static_loads)
+        return load
+
+
+def run(
+    assembly: Assembly,
+    coupling: Coupling,
+    journey: Journey,
+    integrator: Integrator,
+    irregularity: np.ndarray,
+    *,
+    setup_began: float,
+    attrs: Mapping[str, object] | None = None,
+    progress: Progress | None = None,
+    on_state: Callable[[State], None] | None = None,
+) -> xr.Dataset:
+    """Run and record.
+
+    Parameters
+    ----------
+    assembly : Assembly
+    coupling : Coupling
+        Its record must hold "contact_force"; everything it holds is recorded.
+    journey : Journey
+    integrator : Integrator
+    irregularity : ndarray
+        (n_times, n_wheels) faded irregularity under each wheel, as the coupling uses it [m].
+    setup_began : float
+        `time.perf_counter()` when the solver began, for the time that setting up took.
+    attrs : mapping, optional
+        Describes the run; what is known here (dofs, steps, times ...) is added.
+    progress : callable, optional
+        Called with (steps done, steps) now and then.
+    on_state : callable, optional
+        Sees every state, the start included.
+
+    Returns
+    -------
+    xarray.Dataset
+    """
+    system, track, wheels = assembly.system, assembly.track, assembly.wheel_dofs
+    n_steps = journey.n_steps
+    positions = journey.wheel_positions(assembly.vehicle.wheel_offsets)
+    n_times, n_wheels = positions.shape
+    rail_dofs, rail_weights = (
+        rows.reshape(n_times, n_wheels, -1) for rows in track.rail_rows(positions.ravel())
+    )
+    local = track.local_compliance(positions.ravel()).reshape(positions.shape)
+    station_dofs, station_weights = track.rail_rows(np.asarray(journey.stations, dtype=float))
+    stations = np.empty((n_times, len(journey.stations)))
+    wheel_u, wheel_a, rail_u = (np.empty(positions.shape) for _ in range(3))
+
+    start = static_start(system, coupling, assembly.external, wheels)
+    assert start.contact is not None
+    recorded = {
+        name: np.empty((n_times, *np.shape(value))) for name, value in start.contact.record.items()
+    }
+
+    def record(state: State) -> None:
+        assert state.contact is not None
+        step, u = state.step, state.u
+        for name, value in state.contact.record.items():
+            recorded[name][step] = value
+        wheel_u[step], wheel_a[step] = u[wheels], state.a[wheels]
+        rail_u[step] = (rail_weights[step] * u[rail_dofs[step]]).sum(axis=1)
+        if len(journey.stations):
+            stations[step] = (station_weights * u[station_dofs]).sum(axis=1)
+        if on_state is not None:
+            on_state(state)
+
+    record(start)
+    stepping_began = time.perf_counter()
+    states = march(
+        system,
+        coupling,
+        start,
+        journey.time_step,
+        n_steps,
+        integrator,
+        assembly.external,
+        position=lambda step: float(positions[step, 0]),
+    )
+    for state in states:
+        record(state)
+        if progress is not None and (state.step % STEPS_PER_REPORT == 0 or state.step == n_steps):
+            progress(state.step, n_steps)
+    stepping_ended = time.perf_counter()
+
+    # the loaded element's own deflection belongs to the rail under the wheel
+    rail_u -= local * recorded["contact_force"]
+    return history_dataset(
+        journey,
+        positions,
+        {
+            "contact_force": recorded.pop("contact_force"),
+            "wheel_displacement": wheel_u,
+            "wheel_acceleration": wheel_a,
+            "rail_displacement": rail_u,
+            "irregularity": irregularity,
+            **recorded,
+        },
+        station_displacement=stations,
+        attrs={
+            **(attrs or {}),
+            "integrator": integrator.name,
+            "direction": assembly.direction,
+            "static_load": [float(load) for load in assembly.static_loads],
+            "speed": journey.speed,
+            "fade_in": journey.fade_in,
+            "dofs": assembly.n_dofs,
+            "steps": n_steps,
+            "dt": journey.time_step,
+            "seconds_setup": stepping_began - setup_began,
+            "seconds_stepping": stepping_ended - stepping_began,
+        },
+    )

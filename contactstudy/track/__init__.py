@@ -1,0 +1,1 @@
+"""The track: what it is (model) and its discretisations (beam, solid)."""

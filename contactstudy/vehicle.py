@@ -1,0 +1,196 @@
+"""Lumped vehicles: M, C, K, wheel dofs and static wheel loads.
+
+Displacements are measured from the static equilibrium of the suspensions, so that gravity
+appears only as the constant force -static_load on each wheel dof. Default values are those of
+the Shinkansen S300 (Y. S. Wu and Y. B. Yang, Eng. Struct. 25 (2003) 251), per wheel.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from contactstudy.validation import not_negative, positive, raise_if
+
+GRAVITY = 9.81
+"""m/s^2."""
+
+
+@dataclass(frozen=True)
+class Vehicle:
+    """A linear vehicle on one rail.
+
+    Parameters
+    ----------
+    mass, damping, stiffness : ndarray
+        (nv, nv), symmetric.
+    wheel_dofs : ndarray
+        (nw,) the dofs that are wheel displacements.
+    wheel_offsets : ndarray
+        (nw,) position of each wheel relative to the leading wheel, at most 0 [m].
+    static_loads : ndarray
+        (nw,) static force of each wheel on the rail, positive in compression [N].
+    dof_names : tuple of str
+        (nv,).
+
+    Raises
+    ------
+    InputError
+        If shapes do not fit together or values are impossible.
+    """
+
+    mass: np.ndarray
+    damping: np.ndarray
+    stiffness: np.ndarray
+    wheel_dofs: np.ndarray
+    wheel_offsets: np.ndarray
+    static_loads: np.ndarray
+    dof_names: tuple[str, ...]
+
+    def __post_init__(self) -> None:
+        nv, nw = len(self.dof_names), len(self.wheel_dofs)
+        problems = []
+        for name in ("mass", "damping", "stiffness"):
+            matrix = getattr(self, name)
+            if matrix.shape != (nv, nv):
+                problems.append(f"vehicle {name}: shape {matrix.shape}, must be ({nv}, {nv})")
+            elif not np.all(np.isfinite(matrix)):
+                problems.append(f"vehicle {name}: must be finite")
+            elif not np.allclose(matrix, matrix.T, rtol=1e-12, atol=0.0):
+                problems.append(f"vehicle {name}: must be symmetric")
+            elif nv and np.linalg.eigvalsh(matrix)[0] < -1e-9 * np.abs(matrix).max():
+                problems.append(f"vehicle {name}: must be positive semi-definite")
+        if nw == 0 or len(self.wheel_offsets) != nw or len(self.static_loads) != nw:
+            problems.append(
+                "vehicle: wheel_dofs, wheel_offsets and static_loads must have one value a wheel"
+            )
+        elif np.any(self.wheel_offsets > 0.0) or np.max(self.wheel_offsets) != 0.0:
+            problems.append("vehicle wheel_offsets: 0 for the leading wheel, negative behind it")
+        if np.any(~np.isfinite(self.static_loads)) or np.any(self.static_loads < 0.0):
+            problems.append("vehicle static_loads: must be finite and at least 0 N")
+        raise_if(problems)
+
+    @property
+    def n_dofs(self) -> int:
+        """Number of dofs."""
+        return len(self.dof_names)
+
+    @property
+    def n_wheels(self) -> int:
+        """Number of wheels."""
+        return len(self.wheel_dofs)
+
+
+def wheel_column(
+    wheel_mass: float = 890.0,
+    bogie_mass: float = 760.0,
+    car_mass: float = 5219.0,
+    primary_stiffness: float = 0.59e6,
+    primary_damping: float = 19.6e3,
+    secondary_stiffness: float = 0.1325e6,
+    secondary_damping: float = 22.55e3,
+    gravity: float = GRAVITY,
+) -> Vehicle:
+    """Wheel, bogie share and car share above each other.
+
+    Parameters
+    ----------
+    wheel_mass, bogie_mass, car_mass : float
+        Per wheel [kg].
+    primary_stiffness, primary_damping : float
+        Wheel to bogie [N/m], [N s/m].
+    secondary_stiffness, secondary_damping : float
+        Bogie to car [N/m], [N s/m].
+    gravity : float
+        [m/s^2]; the static load is the total weight, 67.4 kN by default.
+
+    Returns
+    -------
+    Vehicle
+        Dofs wheel, bogie, car; one wheel.
+    """
+    raise_if(
+        positive("wheel_mass", wheel_mass, "kg")
+        + positive("bogie_mass", bogie_mass, "kg")
+        + positive("car_mass", car_mass, "kg")
+        + positive("primary_stiffness", primary_stiffness, "N/m")
+        + not_negative("primary_damping", primary_damping, "N s/m")
+        + positive("secondary_stiffness", secondary_stiffness, "N/m")
+        + not_negative("secondary_damping", secondary_damping, "N s/m")
+        + not_negative("gravity", gravity, "m/s^2")
+    )
+
+    def chain(primary: float, secondary: float) -> np.ndarray:
+        return np.array(
+            [
+                [primary, -primary, 0.0],
+                [-primary, primary + secondary, -secondary],
+                [0.0, -secondary, secondary],
+            ]
+        )
+
+    return Vehicle(
+        mass=np.diag([wheel_mass, bogie_mass, car_mass]),
+        damping=chain(primary_damping, secondary_damping),
+        stiffness=chain(primary_stiffness, secondary_stiffness),
+        wheel_dofs=np.array([0]),
+        wheel_offsets=np.zeros(1),
+        static_loads=np.array([(wheel_mass + bogie_mass + car_mass) * gravity]),
+        dof_names=("wheel", "bogie", "car"),
+    )
+
+
+def bare_wheel(mass: float, load: float) -> Vehicle:
+    """Return one wheel of given mass [kg] under a constant load [N] (weight included)."""
+    raise_if(positive("wheel mass", mass, "kg") + not_negative("wheel load", load, "N"))
+    return Vehicle(
+        mass=np.array([[float(mass)]]),
+        damping=np.zeros((1, 1)),
+        stiffness=np.zeros((1, 1)),
+        wheel_dofs=np.array([0]),
+        wheel_offsets=np.zeros(1),
+        static_loads=np.array([float(load)]),
+        dof_names=("wheel",),
+    )
+
+
+def train(vehicles: Sequence[Vehicle], offsets: Sequence[float]) -> Vehicle:
+    """Put several vehicles behind each other as one vehicle, uncoupled.
+
+    Parameters
+    ----------
+    vehicles : sequence of Vehicle
+    offsets : sequence of float
+        Position of each vehicle's leading wheel relative to the first's, at most 0 [m].
+    """
+    problems = []
+    if not vehicles or len(vehicles) != len(offsets):
+        problems.append("train: needs at least one vehicle and one offset a vehicle")
+    elif max(offsets) != 0.0:
+        problems.append("train offsets: 0 for the leading vehicle, negative behind it")
+    raise_if(problems)
+    n = sum(vehicle.n_dofs for vehicle in vehicles)
+    mass, damping, stiffness = (np.zeros((n, n)) for _ in range(3))
+    first, dofs, names = 0, [], []
+    for number, vehicle in enumerate(vehicles, start=1):
+        block = slice(first, first + vehicle.n_dofs)
+        mass[block, block] = vehicle.mass
+        damping[block, block] = vehicle.damping
+        stiffness[block, block] = vehicle.stiffness
+        dofs.append(vehicle.wheel_dofs + first)
+        names += [f"{name} {number}" for name in vehicle.dof_names]
+        first += vehicle.n_dofs
+    return Vehicle(
+        mass=mass,
+        damping=damping,
+        stiffness=stiffness,
+        wheel_dofs=np.concatenate(dofs),
+        wheel_offsets=np.concatenate(
+            [
+                vehicle.wheel_offsets + offset
+                for vehicle, offset in zip(vehicles, offsets, strict=True)
+            ]
+        ),
+        static_loads=np.concatenate([vehicle.static_loads for vehicle in vehicles]),
+        dof_names=tuple(names),
+    )
