@@ -1,0 +1,58 @@
+"""Irregularities of the running surface: spectra, sample profiles, measurements, estimates.
+
+``r(X) > 0`` raises the running surface; X in m along the rail.
+"""
+
+from contactstudy.irregularity.estimate import (
+    SpectralEstimate,
+    ThirdOctaves,
+    nominal_centre,
+    spectral_estimate,
+    third_octave_levels,
+)
+from contactstudy.irregularity.measured import MeasuredProfile, check_coverage, measured_profile
+from contactstudy.irregularity.profile import (
+    FadedProfile,
+    HarmonicProfile,
+    Profile,
+    RepeatWarning,
+    SmoothRail,
+    check_repeat,
+    faded,
+)
+from contactstudy.irregularity.sample import sample_profile
+from contactstudy.irregularity.spectra import (
+    Convention,
+    Spectrum,
+    fra,
+    german,
+    paper_spectrum,
+    spectrum,
+    tbt3352,
+)
+
+__all__ = [
+    "Convention",
+    "FadedProfile",
+    "HarmonicProfile",
+    "MeasuredProfile",
+    "Profile",
+    "RepeatWarning",
+    "SmoothRail",
+    "SpectralEstimate",
+    "Spectrum",
+    "ThirdOctaves",
+    "check_coverage",
+    "check_repeat",
+    "faded",
+    "fra",
+    "german",
+    "measured_profile",
+    "nominal_centre",
+    "paper_spectrum",
+    "sample_profile",
+    "spectral_estimate",
+    "spectrum",
+    "tbt3352",
+    "third_octave_levels",
+]

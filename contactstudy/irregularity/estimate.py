@@ -1,0 +1,212 @@
+"""Spectral estimates of sampled signals: Welch's method and third-octave bands."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.signal import welch
+
+from contactstudy.exceptions import InputError
+
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class SpectralEstimate:
+    """Power spectral density of a sampled signal.
+
+    Parameters
+    ----------
+    wavenumber : ndarray, shape (n,)
+        From 0 to Nyquist, in ``unit``; frequency in 1/m or rad/m, or Hz or rad/s for a signal
+        in time.
+    density : ndarray, shape (n,)
+        Signal squared per ``unit``.
+    sides : {"two", "one"}
+        Two-sided: half of the variance lies at these wavenumbers, half at their negatives.
+    unit : {"rad/m", "1/m"}
+        Angular or not.
+    segment_length : float
+        Length of one segment, in the unit of the spacing.
+    n_segments : int
+        Number of averaged segments.
+    """
+
+    wavenumber: FloatArray
+    density: FloatArray
+    sides: Literal["one", "two"]
+    unit: Literal["rad/m", "1/m"]
+    segment_length: float
+    n_segments: int
+
+
+def spectral_estimate(
+    values: ArrayLike,
+    dx: float,
+    segment_length: float | None = None,
+    sides: Literal["two", "one"] = "two",
+    unit: Literal["rad/m", "1/m"] = "rad/m",
+) -> SpectralEstimate:
+    """Welch's estimate: Hann window, 50 % overlap, mean of each segment removed.
+
+    Parameters
+    ----------
+    values : array_like, shape (n,)
+        Equally spaced samples.
+    dx : float
+        Their spacing [m] (or [s]).
+    segment_length : float, optional
+        Length of a segment, in the unit of ``dx``; an eighth of the record by default.
+    sides : {"two", "one"}
+        The default lies on G_rr of eq. (3) as it stands.
+    unit : {"rad/m", "1/m"}
+        Angular wavenumber or wavenumber.
+
+    Raises
+    ------
+    InputError
+        If the samples are too few or not finite, or an argument is not allowed.
+    """
+    signal = _checked(values, dx)
+    if sides not in ("one", "two") or unit not in ("rad/m", "1/m"):
+        raise InputError(
+            f"spectral estimate: sides '{sides}', unit '{unit}'; "
+            "allowed: 'one' or 'two', 'rad/m' or '1/m'"
+        )
+    length = signal.size * dx / 8.0 if segment_length is None else segment_length
+    n = round(length / dx)
+    if not 8 <= n <= signal.size:
+        raise InputError(
+            f"spectral estimate: segment length is {length:g}; allowed: {8 * dx:g} to "
+            f"{signal.size * dx:g} (8 samples to the whole record)"
+        )
+    frequency, density, segments = _welch(signal, dx, n)
+    turn = 2.0 * np.pi if unit == "rad/m" else 1.0
+    # S_omega = S_f/(2 pi); the one-sided density is the double
+    density = density / turn * (2.0 if sides == "one" else 1.0)
+    return SpectralEstimate(turn * frequency, density, sides, unit, n * dx, segments)
+
+
+@dataclass(frozen=True, eq=False)
+class ThirdOctaves:
+    """Levels in third-octave bands (base ten, IEC 61260-1).
+
+    Parameters
+    ----------
+    nominal : ndarray, shape (n,)
+        Nominal centre frequencies [Hz], or wavenumbers [1/m] of a signal in space.
+    centre : ndarray, shape (n,)
+        Exact centres 10^(k/10).
+    mean_square : ndarray, shape (n,)
+        Mean square of the signal in each band.
+    level : ndarray, shape (n,)
+        10 lg(mean_square/reference^2) [dB]; -inf where the band is empty.
+    reference : float
+        Reference value, in the signal's unit.
+    """
+
+    nominal: FloatArray
+    centre: FloatArray
+    mean_square: FloatArray
+    level: FloatArray
+    reference: float
+
+    @property
+    def wavelength(self) -> FloatArray:
+        """Centres as wavelengths [m] (periods [s])."""
+        return 1.0 / self.centre
+
+
+def third_octave_levels(
+    values: ArrayLike,
+    spacing: float,
+    reference: float = 1e-6,
+    segment_length: float | None = None,
+    band: tuple[float, float] | None = None,
+) -> ThirdOctaves:
+    """Third-octave levels of a signal in space (roughness) or in time (a force).
+
+    The density of Welch's estimate (Hann, 50 % overlap, mean removed) is integrated over each
+    band, a spectral line counting with the part of its width that lies inside. Only bands at
+    least as wide as the distance of two lines, and wholly below Nyquist, are given.
+
+    Parameters
+    ----------
+    values : array_like, shape (n,)
+        Equally spaced samples.
+    spacing : float
+        Their spacing [m] or [s].
+    reference : float
+        0 dB, in the signal's unit: 1e-6 m for roughness.
+    segment_length : float, optional
+        Length of a segment [m] or [s]; the whole record by default (the finest lines).
+    band : tuple of float, optional
+        Lowest and highest centre wanted [1/m] or [Hz].
+
+    Raises
+    ------
+    InputError
+        As ``spectral_estimate``; or if the reference is not positive.
+    """
+    signal = _checked(values, spacing)
+    if not (np.isfinite(reference) and reference > 0.0):
+        raise InputError(f"third-octave levels: reference is {reference}; allowed: above 0")
+    length = signal.size * spacing if segment_length is None else segment_length
+    estimate = spectral_estimate(signal, spacing, length, "one", "1/m")
+    frequency, density = estimate.wavenumber, estimate.density
+    line = float(frequency[1])
+    low, high = (line, 0.5 / spacing) if band is None else band
+    if not 0.0 < low <= high:
+        raise InputError(f"third-octave levels: band is {band}; allowed: 0 < lowest <= highest")
+    k = np.arange(round(10.0 * np.log10(low)), round(10.0 * np.log10(high)) + 1)
+    centre = 10.0 ** (k / 10.0)
+    lower, upper = centre * 10.0**-0.05, centre * 10.0**0.05
+    keep = (upper - lower >= line) & (upper <= 0.5 / spacing)
+    centre, lower, upper = centre[keep], lower[keep], upper[keep]
+    # each line stands for [f - line/2, f + line/2]; the cumulative integral is linear there
+    edges = np.append(frequency - 0.5 * line, frequency[-1] + 0.5 * line)
+    total = np.concatenate([[0.0], np.cumsum(density * line)])
+    mean_square = np.interp(upper, edges, total) - np.interp(lower, edges, total)
+    with np.errstate(divide="ignore"):
+        level = 10.0 * np.log10(np.maximum(mean_square, 0.0) / reference**2)
+    return ThirdOctaves(nominal_centre(centre), centre, mean_square, level, reference)
+
+
+_NOMINAL = np.array([1.0, 1.25, 1.6, 2.0, 2.5, 3.15, 4.0, 5.0, 6.3, 8.0])
+
+
+def nominal_centre(centre: ArrayLike) -> FloatArray:
+    """Nominal value (1, 1.25, 1.6, ... times a power of ten) of exact band centres."""
+    k = np.rint(10.0 * np.log10(np.asarray(centre, dtype=float))).astype(int)
+    # rounded to 12 digits: 6.3 times 0.1 is 0.63, not 0.6300000000000001
+    value = _NOMINAL[k % 10] * 10.0 ** (k // 10)
+    return np.array([float(f"{v:.12g}") for v in value.ravel()]).reshape(value.shape)
+
+
+def _welch(signal: FloatArray, dx: float, n: int) -> tuple[FloatArray, FloatArray, int]:
+    """Two-sided density over the frequencies 0 to Nyquist, and the number of segments."""
+    frequency, density = welch(
+        signal,
+        fs=1.0 / dx,
+        window="hann",
+        nperseg=n,
+        noverlap=n // 2,
+        detrend="constant",
+        return_onesided=False,
+        scaling="density",
+    )
+    half = n // 2 + 1
+    segments = 1 + (signal.size - n) // (n - n // 2)
+    return np.abs(frequency[:half]), density[:half], segments
+
+
+def _checked(values: ArrayLike, dx: float) -> FloatArray:
+    signal = np.asarray(values, dtype=float)
+    if not (np.isfinite(dx) and dx > 0.0):
+        raise InputError(f"spectral estimate: spacing is {dx}; allowed: above 0")
+    if signal.ndim != 1 or signal.size < 8 or not np.all(np.isfinite(signal)):
+        raise InputError(
+            f"spectral estimate: samples of shape {signal.shape}; allowed: 8 or more finite numbers"
+        )
+    return signal

@@ -1,0 +1,183 @@
+"""Measured profiles."""
+
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.interpolate import BSpline, make_interp_spline
+from scipy.signal import butter, sosfiltfilt
+
+from contactstudy.exceptions import InputError
+from contactstudy.irregularity.profile import check_derivative
+from contactstudy.irregularity.table import read_columns
+
+UNITS = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "µm": 1e-6, "μm": 1e-6}
+Interpolation = Literal["cubic", "linear"]
+_DEGREE = {"cubic": 3, "linear": 1}
+
+
+@dataclass(frozen=True, eq=False)
+class MeasuredProfile:
+    """Level given at positions, interpolated between them.
+
+    Parameters
+    ----------
+    positions : ndarray, shape (n,)
+        Increasing positions X along the track [m].
+    levels : ndarray, shape (n,)
+        Level of the running surface, positive upwards [m].
+    interpolation : {"cubic", "linear"}
+        Cubic spline (not-a-knot ends, second derivative continuous), or straight lines, which
+        have no second derivative.
+    wavelengths : tuple of float, optional
+        Shortest and longest wavelength that the levels contain [m]; None if not filtered.
+    name : str
+        Name for messages and legends.
+    """
+
+    positions: NDArray[np.float64]
+    levels: NDArray[np.float64]
+    interpolation: Interpolation = "cubic"
+    wavelengths: tuple[float, float] | None = None
+    name: str = "measured profile"
+
+    @property
+    def domain(self) -> tuple[float, float]:
+        """First and last position [m]."""
+        return float(self.positions[0]), float(self.positions[-1])
+
+    @property
+    def repeat_length(self) -> float:
+        """Infinite [m]: a measurement does not repeat itself."""
+        return np.inf
+
+    @cached_property
+    def _spline(self) -> BSpline:
+        return make_interp_spline(self.positions, self.levels, k=_DEGREE[self.interpolation])
+
+    def __call__(self, x: ArrayLike, derivative: int = 0) -> NDArray[np.float64]:
+        """Value or derivative at positions x of any shape [m, 1, 1/m].
+
+        Raises
+        ------
+        InputError
+            For positions that the measurement does not cover, or the second derivative of
+            straight lines.
+        """
+        check_derivative(derivative)
+        if derivative == 2 and self.interpolation == "linear":
+            raise InputError(f"{self.name}: linear interpolation has no second derivative")
+        position = np.asarray(x, dtype=float)
+        if position.size:
+            check_coverage(self, float(position.min()), float(position.max()))
+        inside = np.clip(position, *self.domain)  # a rounding error beyond the last position
+        return np.asarray(self._spline(inside, nu=derivative), dtype=float)
+
+
+def measured_profile(
+    path: str | Path,
+    level_column: str,
+    level_unit: str,
+    *,
+    x_column: str = "x",
+    origin: float = 0.0,
+    wavelengths: tuple[float, float] | None = None,
+    interpolation: Interpolation = "cubic",
+    required: tuple[float, float] | None = None,
+) -> MeasuredProfile:
+    """Profile from a CSV file.
+
+    Parameters
+    ----------
+    path : str or Path
+        Comma-separated file; its first line names the columns.
+    level_column, level_unit : str
+        Column of the level, positive upwards, and its unit: m, mm or um.
+    x_column : str
+        Column of the position in m.
+    origin : float
+        Position in the file that is X = 0 of the track, e.g. the chainage 98000 m.
+    wavelengths : tuple of float, optional
+        Keep wavelengths between these two only [m]: Butterworth band-pass of fourth order run
+        forwards and backwards, so without phase; both edges are damped by 6 dB.
+    interpolation : {"cubic", "linear"}
+        Between the positions, and to equal spacing before the filter if they are uneven.
+    required : tuple of float, optional
+        Range of X that has to be covered [m].
+
+    Raises
+    ------
+    InputError
+        With every fault of the file and the arguments, by file, line and column.
+    """
+    file = Path(path)
+    problems = []
+    if level_unit not in UNITS:
+        problems.append(f"{file}: level unit is '{level_unit}'; allowed: m, mm, um")
+    if interpolation not in _DEGREE:
+        problems.append(f"{file}: interpolation is '{interpolation}'; allowed: cubic, linear")
+    if not np.isfinite(origin):
+        problems.append(f"{file}: origin is {origin} m; allowed: a finite position")
+    if wavelengths is not None and not 0.0 < wavelengths[0] < wavelengths[1] < np.inf:
+        problems.append(f"{file}: wavelengths are {wavelengths} m; allowed: 0 < shortest < longest")
+    try:
+        x, level = read_columns(file, (x_column, level_column))
+    except InputError as error:
+        raise InputError([*error.problems, *problems]) from None
+    if problems:
+        raise InputError(problems)
+    x, level = x - origin, level * UNITS[level_unit]
+    if wavelengths is not None:
+        x, level = _band_passed(file, x, level, wavelengths, interpolation)
+    profile = MeasuredProfile(x, level, interpolation, wavelengths, str(file))
+    if required is not None:
+        check_coverage(profile, *required)
+    return profile
+
+
+def check_coverage(profile: MeasuredProfile, start: float, end: float) -> None:
+    """Raise ``InputError`` unless the profile is known from ``start`` to ``end`` [m]."""
+    low, high = profile.domain
+    slack = 1e-9 * max(abs(low), abs(high), 1.0)
+    if not (low - slack <= start and end <= high + slack):
+        raise InputError(
+            f"{profile.name}: positions X from {start:g} m to {end:g} m are wanted; the file "
+            f"covers {low:g} m to {high:g} m ('origin' is the file's position at X = 0)"
+        )
+
+
+def _band_passed(
+    file: Path,
+    x: NDArray[np.float64],
+    level: NDArray[np.float64],
+    wavelengths: tuple[float, float],
+    interpolation: Interpolation,
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    step = np.diff(x)
+    dx = float(np.median(step))
+    if np.abs(step - dx).max() > 1e-6 * dx:
+        even = np.linspace(x[0], x[-1], round((x[-1] - x[0]) / dx) + 1)
+        spline = make_interp_spline(x, level, k=_DEGREE[interpolation])
+        x, level = even, np.asarray(spline(even), dtype=float)
+        dx = float(x[1] - x[0])
+    shortest, longest = wavelengths
+    problems = []
+    if shortest <= 2.0 * dx:
+        problems.append(
+            f"{file}: shortest wavelength is {shortest:g} m; allowed: above {2.0 * dx:g} m, twice "
+            "the spacing of the rows"
+        )
+    if longest > x[-1] - x[0]:
+        problems.append(
+            f"{file}: longest wavelength is {longest:g} m; allowed: up to {x[-1] - x[0]:g} m, the "
+            "length of the record"
+        )
+    if problems:
+        raise InputError(problems)
+    sos = butter(4, (1.0 / longest, 1.0 / shortest), "bandpass", fs=1.0 / dx, output="sos")
+    # mirrored ends longer than the longest wavelength let the filter settle outside the record
+    pad = min(len(x) - 1, round(2.0 * longest / dx))
+    return x, np.asarray(sosfiltfilt(sos, level, padlen=pad), dtype=float)

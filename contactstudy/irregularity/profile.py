@@ -1,0 +1,252 @@
+"""What an irregularity is: a function of the position along the rail, with derivatives."""
+
+import warnings
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from contactstudy.exceptions import InputError
+from contactstudy.irregularity.kernels import direct_sum, equally_spaced_sum
+
+EVERYWHERE = (-np.inf, np.inf)
+
+
+class Profile(Protocol):
+    """Irregularity r(X): positive raises the running surface."""
+
+    @property
+    def domain(self) -> tuple[float, float]:
+        """Positions between which the profile is known [m]."""
+
+    @property
+    def repeat_length(self) -> float:
+        """Length after which the profile repeats, or nearly so; infinite if it does not [m]."""
+
+    def __call__(self, x: ArrayLike, derivative: int = 0) -> NDArray[np.float64]:
+        """Value or derivative at positions of any shape.
+
+        Parameters
+        ----------
+        x : array_like
+            Positions X [m].
+        derivative : int
+            0, 1 or 2 [m, 1, 1/m].
+
+        Raises
+        ------
+        InputError
+            For another order of derivative, or positions outside ``domain``.
+        """
+
+
+class RepeatWarning(UserWarning):
+    """A study runs longer than its irregularity takes to repeat itself."""
+
+
+@dataclass(frozen=True)
+class SmoothRail:
+    """No irregularity."""
+
+    @property
+    def domain(self) -> tuple[float, float]:
+        """The whole axis [m]."""
+        return EVERYWHERE
+
+    @property
+    def repeat_length(self) -> float:
+        """Infinite [m]: there is nothing to repeat."""
+        return np.inf
+
+    def __call__(self, x: ArrayLike, derivative: int = 0) -> NDArray[np.float64]:
+        """Zero at every position."""
+        check_derivative(derivative)
+        return np.zeros(np.shape(x))
+
+
+@dataclass(frozen=True, eq=False)
+class HarmonicProfile:
+    """Sum of cosines, eq. (1): r(X) = sum a_k cos(omega_k X + phi_k).
+
+    It is fixed by its terms and never by a sampling grid: the same position gives the same
+    value, whatever other positions are asked for.
+
+    Parameters
+    ----------
+    amplitudes : ndarray, shape (n,)
+        a_k [m].
+    wavenumbers : ndarray, shape (n,)
+        omega_k [rad/m].
+    phases : ndarray, shape (n,)
+        phi_k [rad].
+
+    Raises
+    ------
+    InputError
+        If the three differ in length or are empty.
+    """
+
+    amplitudes: NDArray[np.float64]
+    wavenumbers: NDArray[np.float64]
+    phases: NDArray[np.float64]
+
+    def __post_init__(self) -> None:
+        for name in ("amplitudes", "wavenumbers", "phases"):
+            value = np.array(getattr(self, name), dtype=float, ndmin=1)
+            value.flags.writeable = False
+            object.__setattr__(self, name, value)
+        shapes = {self.amplitudes.shape, self.wavenumbers.shape, self.phases.shape}
+        if len(shapes) != 1 or self.amplitudes.ndim != 1 or self.amplitudes.size == 0:
+            raise InputError(
+                "harmonic profile: amplitudes, wavenumbers and phases must be equally long "
+                f"lists of at least one number; their shapes are {sorted(shapes)}"
+            )
+
+    @cached_property
+    def spacing(self) -> float | None:
+        """Common distance of the wavenumbers [rad/m]; None if they are not equally spaced."""
+        if self.wavenumbers.size < 2:
+            return None
+        step = np.diff(self.wavenumbers)
+        mean = float(self.wavenumbers[-1] - self.wavenumbers[0]) / step.size
+        # the wavenumbers' own rounding, 1e-16 of 20 rad/m, is 1e-13 of Table 1's spacing
+        return mean if mean > 0.0 and np.abs(step - mean).max() < 1e-10 * mean else None
+
+    @property
+    def domain(self) -> tuple[float, float]:
+        """The whole axis [m]."""
+        return EVERYWHERE
+
+    @property
+    def repeat_length(self) -> float:
+        """2 pi/spacing [m], where all terms have turned by the same angle (modulo 2 pi).
+
+        There r differs from the start only by that common angle 2 pi omega_1/spacing. With
+        Table 1 it is 315.4 m and an angle near pi: r(X + 315.4) is almost -r(X).
+        """
+        return np.inf if self.spacing is None else 2.0 * np.pi / self.spacing
+
+    @property
+    def rms(self) -> float:
+        """Root mean square over an infinite length [m]: sqrt(sum a_k^2/2)."""
+        return float(np.sqrt(0.5 * np.sum(self.amplitudes**2)))
+
+    def __call__(self, x: ArrayLike, derivative: int = 0) -> NDArray[np.float64]:
+        """Value or derivative at positions x of any shape [m, 1, 1/m]."""
+        check_derivative(derivative)
+        position = np.asarray(x, dtype=float)
+        flat = np.ascontiguousarray(position).ravel()
+        out = np.empty_like(flat)
+        # d^n/dX^n cos(omega X + phi) = omega^n cos(omega X + phi + n pi/2)
+        amplitude = self.amplitudes * self.wavenumbers**derivative
+        phase = self.phases + derivative * (np.pi / 2.0)
+        if self.spacing is not None:
+            real, imag = amplitude * np.cos(phase), amplitude * np.sin(phase)
+            equally_spaced_sum(flat, self.wavenumbers[0], self.spacing, real, imag, out)
+        else:
+            cycles = self.wavenumbers / (2.0 * np.pi)
+            direct_sum(flat, cycles, phase / (2.0 * np.pi), amplitude, out)
+        return out.reshape(position.shape)
+
+
+@dataclass(frozen=True, eq=False)
+class FadedProfile:
+    """A profile that grows smoothly from nothing; made by ``faded``.
+
+    Parameters
+    ----------
+    profile : Profile
+        The profile behind the fade-in.
+    start, length : float
+        Where the fade-in starts and how long it is [m].
+    """
+
+    profile: Profile
+    start: float
+    length: float
+
+    @property
+    def domain(self) -> tuple[float, float]:
+        """The profile's own, and everything before the fade-in starts [m]."""
+        low, high = self.profile.domain
+        return (-np.inf if low <= self.start else low), high
+
+    @property
+    def repeat_length(self) -> float:
+        """That of the profile [m]."""
+        return self.profile.repeat_length
+
+    def __call__(self, x: ArrayLike, derivative: int = 0) -> NDArray[np.float64]:
+        """Value or derivative at positions x of any shape [m, 1, 1/m]."""
+        check_derivative(derivative)
+        position = np.asarray(x, dtype=float)
+        out = np.zeros(position.shape)
+        on = position > self.start
+        out[on] = self._on(position[on], derivative)
+        return out
+
+    def _on(self, x: NDArray[np.float64], derivative: int) -> NDArray[np.float64]:
+        # s(t) = 10 t^3 - 15 t^4 + 6 t^5 with t = (X - start)/length: s' and s'' vanish at both
+        # ends, so that the wheel feels no jump in velocity or acceleration
+        t = np.minimum((x - self.start) / self.length, 1.0)
+        s0 = t**3 * (10.0 - 15.0 * t + 6.0 * t * t)
+        r0 = self.profile(x)
+        if derivative == 0:
+            return s0 * r0
+        s1 = 30.0 * t**2 * (1.0 - t) ** 2 / self.length
+        r1 = self.profile(x, 1)
+        if derivative == 1:
+            return s1 * r0 + s0 * r1
+        s2 = 60.0 * t * (1.0 - t) * (1.0 - 2.0 * t) / self.length**2
+        return s2 * r0 + 2.0 * s1 * r1 + s0 * self.profile(x, 2)
+
+
+def faded(profile: Profile, start: float, length: float) -> Profile:
+    """Profile multiplied by a quintic smoothstep from 0 at ``start`` to 1 ``length`` later.
+
+    Parameters
+    ----------
+    profile : Profile
+        The profile to fade in.
+    start : float
+        Position up to which it is zero [m].
+    length : float
+        Length of the fade-in [m]; 0 leaves the profile as it is.
+
+    Raises
+    ------
+    InputError
+        If the length is negative or not a number.
+    """
+    if not length >= 0.0 or not np.isfinite(length):
+        raise InputError(f"fade-in length is {length} m; allowed: 0 m or more")
+    return profile if length == 0.0 else FadedProfile(profile, start, length)
+
+
+def check_repeat(profile: Profile, length: float) -> bool:
+    """Warn if a study of this length [m] sees the same irregularity again.
+
+    Returns
+    -------
+    bool
+        True if it warned (category ``RepeatWarning``).
+    """
+    repeat = profile.repeat_length
+    if length <= repeat:
+        return False
+    warnings.warn(
+        f"the study covers {length:.1f} m, but the irregularity nearly repeats itself (up to a "
+        f"common phase) every {repeat:.1f} m because its wavenumbers are equally spaced; "
+        "use jittered wavenumbers or more terms",
+        RepeatWarning,
+        stacklevel=2,
+    )
+    return True
+
+
+def check_derivative(derivative: int) -> None:
+    """Refuse orders of derivative other than 0, 1 and 2 with an ``InputError``."""
+    if derivative not in (0, 1, 2):
+        raise InputError(f"derivative {derivative} of an irregularity; allowed: 0, 1, 2")

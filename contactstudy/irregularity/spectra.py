@@ -1,0 +1,286 @@
+"""Power spectral densities of track irregularities, by name.
+
+Every spectrum is called with the angular wavenumber in rad/m and returns the *two-sided* density
+in m^2/(rad/m): the variance in a band is 2 int G d omega. What its source prints (one or two
+sides, rad/m or 1/m, mm^2 or m^2) is declared in ``convention`` and converted there, once.
+"""
+
+import difflib
+import inspect
+import itertools
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.integrate import quad
+
+from contactstudy.exceptions import InputError
+
+Sides = Literal["one", "two"]
+Wavenumber = Literal["rad/m", "1/m"]
+Formula = Callable[[NDArray[np.float64]], NDArray[np.float64]]
+
+
+@dataclass(frozen=True)
+class Convention:
+    """How a density is to be read.
+
+    Parameters
+    ----------
+    sides : {"two", "one"}
+        Two-sided: the variance is the integral over both signs of the wavenumber.
+    wavenumber : {"rad/m", "1/m"}
+        Variable of the formula and of the integral.
+    square : float
+        Square of the unit of length in the numerator [m^2]: 1e-6 for mm^2, 1e-4 for cm^2.
+    """
+
+    sides: Sides = "two"
+    wavenumber: Wavenumber = "rad/m"
+    square: float = 1.0
+
+    @property
+    def unit(self) -> str:
+        """Unit of the density."""
+        length = {1.0: "m", 1e-4: "cm", 1e-6: "mm"}[self.square]
+        return f"{length}^2/({self.wavenumber})"
+
+    @property
+    def factor(self) -> float:
+        """Density in this convention times ``factor`` is the two-sided one in m^2/(rad/m)."""
+        # S_f df = S_omega d omega with omega = 2 pi f, hence S_omega = S_f/(2 pi)
+        per_rad = 1.0 if self.wavenumber == "rad/m" else 1.0 / (2.0 * np.pi)
+        return self.square * per_rad * (1.0 if self.sides == "two" else 0.5)
+
+
+TWO_SIDED = Convention()
+
+
+@dataclass(frozen=True)
+class Spectrum:
+    """Power spectral density of an irregularity.
+
+    Parameters
+    ----------
+    name : str
+        Name for messages and legends.
+    formula : callable
+        The source's formula: wavenumber > 0 to density, both in ``convention``.
+    convention : Convention
+        How the source is to be read.
+    source : str
+        Where the formula and its numbers come from.
+    parameters : tuple of (str, float)
+        The formula's numbers, in the source's units.
+    """
+
+    name: str
+    formula: Formula
+    convention: Convention
+    source: str
+    parameters: tuple[tuple[str, float], ...] = ()
+
+    def __call__(self, omega: ArrayLike) -> NDArray[np.float64]:
+        """Two-sided density [m^2/(rad/m)] at angular wavenumbers omega > 0 [rad/m]."""
+        return self.density(omega, TWO_SIDED)
+
+    def density(self, wavenumber: ArrayLike, convention: Convention) -> NDArray[np.float64]:
+        """Density at ``wavenumber``, both in the wanted convention.
+
+        Raises
+        ------
+        InputError
+            If a wavenumber is not positive.
+        """
+        k = np.asarray(wavenumber, dtype=float)
+        if not np.all(k > 0.0):
+            raise InputError(f"spectrum {self.name}: wavenumbers must be above 0")
+        turn = {"rad/m": 1.0, "1/m": 2.0 * np.pi}
+        own = k * turn[convention.wavenumber] / turn[self.convention.wavenumber]
+        return self.formula(own) * (self.convention.factor / convention.factor)
+
+    def variance(self, lower: float, upper: float) -> float:
+        """Variance between two angular wavenumbers [rad/m]: 2 int G d omega [m^2]."""
+        # integrated over ln omega, in which a power law is smooth over many decades
+        edges = np.linspace(np.log(lower), np.log(upper), 41)
+        return float(
+            sum(
+                quad(lambda s: 2.0 * np.exp(s) * float(self(np.exp(s))), a, b, epsrel=1e-10)[0]
+                for a, b in itertools.pairwise(edges)
+            )
+        )
+
+
+def paper_spectrum(
+    roughness: float = 0.8e-7, omega_1: float = 0.0, omega_2: float = 1.0
+) -> Spectrum:
+    """Eq. (3) of the paper; the defaults are its Table 1.
+
+    Parameters
+    ----------
+    roughness : float
+        A_r [m^2 rad/m].
+    omega_1, omega_2 : float
+        Wavenumbers that shape the spectrum [rad/m].
+    """
+    _positive("paper", roughness=roughness, omega_2=omega_2)
+    _not_negative("paper", omega_1=omega_1)
+
+    def formula(w: NDArray[np.float64]) -> NDArray[np.float64]:
+        # G_rr = A_r w2^2 (w^2 + w1^2)/(w^4 (w^2 + w2^2))
+        return roughness * omega_2**2 * (w**2 + omega_1**2) / (w**4 * (w**2 + omega_2**2))
+
+    numbers = (("roughness", roughness), ("omega_1", omega_1), ("omega_2", omega_2))
+    return Spectrum("paper", formula, TWO_SIDED, "the paper, eq. (3) and Table 1", numbers)
+
+
+_GERMAN = {"vertical": (4.032e-7, 1.08e-6), "lateral": (2.119e-7, 6.125e-7)}
+
+
+def german(
+    level: Literal["low", "high"] = "low",
+    direction: Literal["vertical", "lateral"] = "vertical",
+    sides: Sides = "two",
+) -> Spectrum:
+    """German spectra of low and high disturbance (ERRI B176; Claus and Schiehlen 1998).
+
+    Parameters
+    ----------
+    level : {"low", "high"}
+        Disturbance.
+    direction : {"vertical", "lateral"}
+        Longitudinal level or alignment.
+    sides : {"two", "one"}
+        How the formula is read. The literature is not of one mind and mostly silent; two-sided
+        is this program's convention, one-sided halves the density.
+    """
+    _one_of("german", "level", level, ("low", "high"))
+    _one_of("german", "direction", direction, tuple(_GERMAN))
+    _one_of("german", "sides", sides, ("two", "one"))
+    a = _GERMAN[direction][0 if level == "low" else 1]
+    omega_c, omega_r = 0.8246, 0.0206
+
+    def formula(w: NDArray[np.float64]) -> NDArray[np.float64]:
+        # S = A w_c^2/((w^2 + w_r^2)(w^2 + w_c^2))
+        return a * omega_c**2 / ((w**2 + omega_r**2) * (w**2 + omega_c**2))
+
+    name = f"German {level} disturbance" + ("" if direction == "vertical" else ", lateral")
+    numbers = (("A", a), ("omega_c", omega_c), ("omega_r", omega_r))
+    return Spectrum(name, formula, Convention(sides), "ERRI B176", numbers)
+
+
+_FRA = (1.2107, 1.0181, 0.6816, 0.5376, 0.2095, 0.0339)
+
+
+def fra(track_class: int = 6, sides: Sides = "two") -> Spectrum:
+    """Vertical spectrum of the Federal Railroad Administration's track classes 1 to 6.
+
+    Parameters
+    ----------
+    track_class : int
+        1 (worst) to 6.
+    sides : {"two", "one"}
+        How the formula is read; as with the German spectra the literature does not say.
+    """
+    _one_of("fra", "track_class", track_class, tuple(range(1, 7)))
+    _one_of("fra", "sides", sides, ("two", "one"))
+    a, omega_c = _FRA[track_class - 1], 0.8245
+
+    def formula(w: NDArray[np.float64]) -> NDArray[np.float64]:
+        # S = 0.25 A_v w_c^2/(w^2 (w^2 + w_c^2)), A_v in cm^2 rad/m
+        return 0.25 * a * omega_c**2 / (w**2 * (w**2 + omega_c**2))
+
+    numbers = (("A_v", a), ("omega_c", omega_c), ("k", 0.25))
+    convention = Convention(sides, "rad/m", 1e-4)
+    return Spectrum(f"FRA class {track_class}", formula, convention, "FRA", numbers)
+
+
+# S = A/f^n in mm^2/(1/m), one-sided, f in 1/m: upper end of each range, A, n
+_TBT3352 = (
+    (0.0187, 1.0544e-5, 3.3891),
+    (0.0474, 3.5588e-3, 1.9271),
+    (0.1533, 1.9784e-2, 1.3643),
+    (np.inf, 3.9488e-4, 3.4516),
+)
+
+
+def tbt3352() -> Spectrum:
+    """Longitudinal level of Chinese ballastless high-speed track, TB/T 3352-2014."""
+    ends = np.array([row[0] for row in _TBT3352[:-1]])
+    a, n = np.array([row[1] for row in _TBT3352]), np.array([row[2] for row in _TBT3352])
+
+    def formula(f: NDArray[np.float64]) -> NDArray[np.float64]:
+        part = np.searchsorted(ends, f, side="right")
+        return a[part] / f ** n[part]
+
+    numbers = tuple(
+        (f"{key}_{i + 1}", value)
+        for i, row in enumerate(_TBT3352)
+        for key, value in zip(("A", "n"), row[1:], strict=True)
+    )
+    convention = Convention("one", "1/m", 1e-6)
+    return Spectrum("TB/T 3352 ballastless", formula, convention, "TB/T 3352-2014", numbers)
+
+
+_NAMED: dict[str, tuple[Callable[..., Spectrum], dict[str, Any]]] = {
+    "paper": (paper_spectrum, {}),
+    "german_low": (german, {"level": "low"}),
+    "german_high": (german, {"level": "high"}),
+    **{f"fra{i}": (fra, {"track_class": i}) for i in range(1, 7)},
+    "tbt3352": (tbt3352, {}),
+}
+NAMES: tuple[str, ...] = tuple(_NAMED)
+
+
+def spectrum(name: str, **parameters: Any) -> Spectrum:
+    """Spectrum by name.
+
+    Parameters
+    ----------
+    name : str
+        One of ``spectra.NAMES``; capitals, blanks and dashes do not matter.
+    **parameters
+        Passed on: ``roughness``, ``omega_1``, ``omega_2`` for "paper"; ``direction`` and
+        ``sides`` for the German, ``sides`` for the FRA spectra.
+
+    Raises
+    ------
+    InputError
+        If the name or a parameter is unknown, or a value is not allowed.
+    """
+    plain = {key.replace("_", ""): key for key in _NAMED}
+    key = "".join(c for c in name.lower() if c.isalnum())
+    if key not in plain:
+        near = difflib.get_close_matches(key, plain, n=1)
+        hint = f" (did you mean '{plain[near[0]]}'?)" if near else ""
+        raise InputError(f"spectrum '{name}' is unknown{hint}; allowed: {', '.join(NAMES)}")
+    make, fixed = _NAMED[plain[key]]
+    allowed = [p for p in inspect.signature(make).parameters if p not in fixed]
+    unknown = [p for p in parameters if p not in allowed]
+    if unknown:
+        raise InputError(
+            f"spectrum '{plain[key]}' has no parameter '{p}'; allowed: {', '.join(allowed) or '-'}"
+            for p in unknown
+        )
+    return make(**fixed, **parameters)
+
+
+def _one_of(name: str, key: str, value: Any, allowed: tuple[Any, ...]) -> None:
+    if value not in allowed:
+        raise InputError(
+            f"spectrum '{name}': {key} is {value!r}; allowed: {', '.join(map(str, allowed))}"
+        )
+
+
+def _positive(name: str, **values: float) -> None:
+    bad = [f"{k} is {v}" for k, v in values.items() if not (np.isfinite(v) and v > 0.0)]
+    if bad:
+        raise InputError(f"spectrum '{name}': {text}; allowed: above 0" for text in bad)
+
+
+def _not_negative(name: str, **values: float) -> None:
+    bad = [f"{k} is {v}" for k, v in values.items() if not (np.isfinite(v) and v >= 0.0)]
+    if bad:
+        raise InputError(f"spectrum '{name}': {text}; allowed: 0 or more" for text in bad)
