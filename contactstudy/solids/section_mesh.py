@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from contactstudy.exceptions import InputError
 from contactstudy.profiles.rail import RailProfile
 from contactstudy.profiles.section import SectionProperties, section_properties
+from contactstudy.solids.mapped import along, graded, join, transfinite
 
 Array = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -52,51 +53,6 @@ class SectionMesh:
     def properties(self, poisson_ratio: float) -> SectionProperties:
         """Area, second moments and shear coefficients of the WHOLE section, as meshed."""
         return section_properties(self.nodes, self.quads, poisson_ratio, symmetric=self.symmetric)
-
-
-def graded(length: float, first: float, growth: float, largest: float) -> Array:
-    """Positions 0..length whose steps start at `first` at most and grow to `largest` at most.
-
-    Steps follow ``min(first*growth**i, largest)`` until the length is reached; all are then
-    shortened by the same factor, so that the last position is exact.
-    """
-    steps = [first]
-    while sum(steps) < length * (1 - 1e-9):
-        steps.append(min(steps[-1] * growth, largest))
-    positions = np.r_[0.0, np.cumsum(steps)]
-    return np.asarray(positions * (length / positions[-1]))
-
-
-def _along(polyline: Array, fractions: Array) -> Array:
-    """Points of a polyline at fractions of its arc length."""
-    s = np.r_[0.0, np.cumsum(np.hypot(*np.diff(polyline, axis=0).T))]
-    return np.stack([np.interp(fractions * s[-1], s, polyline[:, i]) for i in (0, 1)], axis=1)
-
-
-def _transfinite(bottom: Array, top: Array, left: Array, right: Array) -> Array:
-    """Coons patch (rows, columns, 2) of four matching edges; rows run from bottom to top."""
-    rows, columns = len(left), len(bottom)
-    # blending weights: the mean of the normalised arc lengths of opposite edges
-    u = 0.5 * (_normalised(bottom) + _normalised(top))
-    v = 0.5 * (_normalised(left) + _normalised(right))
-    U, V = np.broadcast_to(u, (rows, columns)), np.broadcast_to(v[:, None], (rows, columns))
-    U, V = U[..., None], V[..., None]
-    # P = (1-v) B + v T + (1-u) L + u R - bilinear interpolation of the corners
-    return np.asarray(
-        (1 - V) * bottom[None]
-        + V * top[None]
-        + (1 - U) * left[:, None]
-        + U * right[:, None]
-        - (1 - U) * (1 - V) * bottom[0]
-        - U * (1 - V) * bottom[-1]
-        - (1 - U) * V * top[0]
-        - U * V * top[-1]
-    )
-
-
-def _normalised(edge: Array) -> Array:
-    s = np.r_[0.0, np.cumsum(np.hypot(*np.diff(edge, axis=0).T))]
-    return np.asarray(s / s[-1])
 
 
 def _block_corners(profile: RailProfile) -> list[tuple[float, float]]:
@@ -180,7 +136,7 @@ def rail_section_mesh(
         fine = np.arange(nw + 1) * size
     rest = graded(length - fine[-1], size * growth, growth, coarse)[1:]
     columns = np.r_[fine, fine[-1] + rest] / length
-    top = _along(top_curve, columns)
+    top = along(top_curve, columns)
     top[: len(fine), 0] = fine
     top[:, 1] = profile.running_surface(top[:, 0])
     web_fraction = np.linspace(0.0, 1.0, nw + 1)
@@ -194,34 +150,34 @@ def rail_section_mesh(
     head_rows = 1 - rows[::-1] / depth  # fractions from bottom to top
     under = side[head_corner : web_top + 1][::-1]
     share = (columns[nw:] - columns[nw]) / (columns[-1] - columns[nw])
-    bottom = np.r_[straight(side[web_top, 1], web_half), _along(under, share)[1:]]
+    bottom = np.r_[straight(side[web_top, 1], web_half), along(under, share)[1:]]
     left = np.stack([np.zeros(len(rows)), side[web_top, 1] * (1 - head_rows)], axis=1)
-    right = _along(side[shoulder : head_corner + 1][::-1], head_rows)
-    head = _transfinite(bottom, top, left, right)
+    right = along(side[shoulder : head_corner + 1][::-1], head_rows)
+    head = transfinite(bottom, top, left, right)
 
     # web
     height = side[web_top, 1] - side[web_bottom, 1]
     web_rows = np.linspace(0.0, 1.0, 1 + max(4, round(height / coarse)))
-    web_right = _along(side[web_top : web_bottom + 1][::-1], web_rows)
+    web_right = along(side[web_top : web_bottom + 1][::-1], web_rows)
     web = np.stack([web_fraction * p[0] for p in web_right])
     web = np.stack([web, np.broadcast_to(web_right[:, 1:2], web.shape)], axis=2)
 
-    # foot: a few layers, columns growing to the tip
+    # foot
     reach = side[foot_bottom, 0] - side[web_bottom, 0]
     n_foot = round(reach / coarse)
     share = np.linspace(0.0, 1.0, n_foot + 1)
-    over = _along(side[web_bottom : foot_top + 1], share)
+    over = along(side[web_bottom : foot_top + 1], share)
     foot_top_edge = np.r_[straight(side[web_bottom, 1], side[web_bottom, 0]), over[1:]]
     flat = side[web_bottom, 0] + share * reach
     foot_edge = np.r_[straight(side[-1, 1], side[web_bottom, 0])[:, 0], flat[1:]]
     foot_low = np.stack([foot_edge, np.full(len(foot_edge), side[-1, 1])], axis=1)
-    layers = np.linspace(0.0, 1.0, 4)
     z0, z1 = side[-1, 1], side[web_bottom, 1]
+    layers = np.linspace(0.0, 1.0, 1 + max(3, round((z1 - z0) / coarse)))
     foot_left = np.stack([np.zeros(len(layers)), z0 + layers * (z1 - z0)], axis=1)
-    foot_right = _along(side[foot_top : foot_bottom + 1][::-1], layers)
-    foot = _transfinite(foot_low, foot_top_edge, foot_left, foot_right)
+    foot_right = along(side[foot_top : foot_bottom + 1][::-1], layers)
+    foot = transfinite(foot_low, foot_top_edge, foot_left, foot_right)
 
-    nodes, quads, ids = _join(foot, web, head)
+    nodes, quads, ids = join(foot, web, head)
     surface = ids[2][-1, : len(fine)]
     underside = ids[0][0]
     if symmetric:
@@ -231,26 +187,6 @@ def rail_section_mesh(
 
 def _nearest(side: Array, point: tuple[float, float]) -> int:
     return int(np.argmin(np.hypot(side[:, 0] - point[0], side[:, 1] - point[1])))
-
-
-def _join(*blocks: Array) -> tuple[Array, IntArray, list[IntArray]]:
-    """Number the nodes of mapped blocks once, joining coincident ones."""
-    flat = np.vstack([b.reshape(-1, 2) for b in blocks])
-    keys = np.round(flat / 1e-8).astype(np.int64)
-    _, first, inverse = np.unique(keys, axis=0, return_index=True, return_inverse=True)
-    inverse = inverse.ravel()
-    ids, quads, start = [], [], 0
-    for block in blocks:
-        rows, columns, _ = block.shape
-        number = inverse[start : start + rows * columns].reshape(rows, columns)
-        start += rows * columns
-        ids.append(number)
-        quads.append(
-            np.stack(
-                [number[:-1, :-1], number[:-1, 1:], number[1:, 1:], number[1:, :-1]], axis=-1
-            ).reshape(-1, 4)
-        )
-    return flat[first], np.vstack(quads), ids
 
 
 def _mirrored(half: SectionMesh) -> SectionMesh:
