@@ -1,0 +1,199 @@
+"""Contact points: Gauss points of the wheel's facets, and the gap between smooth surfaces.
+
+Coordinates: x along the rail relative to the wheel's lowest point, y lateral in the rail's
+axes, z up. Points lie on the wheel's tread and travel with it. The gap is never taken from
+facets: it is the distance between the smooth profiles in double precision. Displacements are
+interpolated, those of the wheel bilinearly between the four nodes of the point's facet, those
+of the rail by cubic polynomials between the nodes of its running surface: the points move over
+the rail's mesh, and with linear interpolation the sagitta of the dent between two nodes
+(about 1 um at 2 mm) would come and go with every element passed.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contactstudy.contact.interpolation import Rows, grid_rows, line_rows
+from contactstudy.exceptions import InputError
+from contactstudy.profiles.rail import RailProfile
+from contactstudy.profiles.wheel import WheelProfile
+
+Array = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+
+# two-point Gauss rule on [0, 1]
+_GAUSS = 0.5 + np.array([-0.5, 0.5]) / np.sqrt(3.0)
+
+
+@dataclass(frozen=True)
+class ContactPoints:
+    """Points on the wheel's tread over the running surface of the rail.
+
+    The points form a product grid, index ``i*ny + j``; wheel nodes one, index ``i*my + j``.
+
+    Attributes
+    ----------
+    x, y : ndarray (nx,), (ny,)
+        Grid lines of the points in m.
+    wheel_x, wheel_y : ndarray (mx,), (my,)
+        Grid lines of the wheel's tread nodes in m.
+    gap : ndarray (nx*ny,)
+        Distance of the undeformed surfaces along the rail's normal, in m, for zero approach
+        (wheel's tape circle just level with the top of rail) and no irregularity.
+    normal_z : ndarray (nx*ny,)
+        Vertical component of the rail's outward normal.
+    area : ndarray (nx*ny,)
+        Area on the rail's surface that a point stands for, in m^2; of both halves where the
+        model is symmetric.
+    facet : ndarray of int (nx*ny,)
+        Facet (quadrilateral) of the wheel's tread grid, ``i*(my-1) + j``.
+    wheel_rows : Rows
+        Interpolation from the wheel's tread nodes, (nx*ny, 4).
+    symmetric : bool
+        Only y >= 0 is modelled.
+    """
+
+    x: Array
+    y: Array
+    wheel_x: Array
+    wheel_y: Array
+    gap: Array
+    normal_z: Array
+    area: Array
+    facet: IntArray
+    wheel_rows: Rows
+    symmetric: bool
+
+    @property
+    def x_of_points(self) -> Array:
+        """X of every point relative to the wheel, (nx*ny,) in m."""
+        return np.repeat(self.x, len(self.y))
+
+    @property
+    def y_of_points(self) -> Array:
+        """Y of every point, (nx*ny,) in m."""
+        return np.tile(self.y, len(self.x))
+
+    def nodal_pressure(self, forces: Array) -> Array:
+        """Pressure at the wheel's tread nodes from the forces at the points.
+
+        The lumped L2 projection ``p_a = sum_i N_a(i) lam_i / sum_i N_a(i) A_i``. With a stiff
+        penalty four points a facet follow what the nodes cannot, and their own pressures
+        scatter about this one.
+
+        Parameters
+        ----------
+        forces : ndarray (nx*ny,)
+            Normal forces in N.
+
+        Returns
+        -------
+        ndarray (mx*my,)
+            Pressure in Pa.
+        """
+        n = len(self.wheel_x) * len(self.wheel_y)
+        load, area = np.zeros(n), np.zeros(n)
+        np.add.at(load, self.wheel_rows.index, self.wheel_rows.weight * forces[:, None])
+        np.add.at(area, self.wheel_rows.index, self.wheel_rows.weight * self.area[:, None])
+        return load / area
+
+    def contact_area(self, active: NDArray[np.bool_]) -> float:
+        """Area of the points in contact in m^2 (of both halves of a symmetric model)."""
+        return float(self.area[active].sum())
+
+
+def _gauss_lines(lines: Array) -> tuple[Array, Array]:
+    steps = np.diff(lines)
+    points = lines[:-1, None] + steps[:, None] * _GAUSS
+    return points.ravel(), np.repeat(0.5 * steps, 2)
+
+
+def rolling_drop(x: Array, height: Array, radius: float) -> Array:
+    """Height of the wheel's surface above its tape circle's lowest point, (nx, ny) in m.
+
+    With the local rolling radius ``R_y = R - h(y)`` the surface is
+    ``R - sqrt(R_y^2 - x^2) = h + x^2/(R_y + sqrt(R_y^2 - x^2))``; the second form keeps all
+    digits.
+    """
+    local = radius - height[None, :]
+    square = local**2 - x[:, None] ** 2
+    if np.any(square <= 0) or np.any(local <= 0):
+        raise InputError("wheel: contact points lie outside the rolling circle")
+    return np.asarray(height[None, :] + x[:, None] ** 2 / (local + np.sqrt(square)))
+
+
+def contact_points(
+    wheel_x: Array,
+    wheel_y: Array,
+    radius: float,
+    rail: RailProfile,
+    wheel: WheelProfile,
+    symmetric: bool = True,
+    lateral_shift: float = 0.0,
+) -> ContactPoints:
+    """Gauss points of the wheel's tread facets over the rail.
+
+    Parameters
+    ----------
+    wheel_x, wheel_y : ndarray (mx,), (my,)
+        Grid lines of the wheel's tread nodes in m, in the rail's axes.
+    radius : float
+        Rolling radius at the tape circle in m.
+    rail : RailProfile
+        Gives the running surface and its slope.
+    wheel : WheelProfile
+        Gives the height of the tread; even in y if `symmetric`.
+    symmetric : bool
+        Only y >= 0 is modelled; then ``wheel_y[0]`` must be 0.
+    lateral_shift : float
+        Position of the wheel's tape circle in m (0 if `symmetric`).
+
+    Returns
+    -------
+    ContactPoints
+
+    Raises
+    ------
+    InputError
+        If the grid is impossible or reaches beyond the running surface.
+    """
+    problems = []
+    if not radius > 0:
+        problems.append(f"wheel radius = {radius} m: must be positive")
+    if symmetric and (abs(wheel_y[0]) > 1e-12 or lateral_shift != 0.0):
+        problems.append("symmetric contact: needs wheel_y[0] = 0 and no lateral shift")
+    if np.any(np.diff(wheel_x) <= 0) or np.any(np.diff(wheel_y) <= 0):
+        problems.append("contact grid: lines must increase")
+    if problems:
+        raise InputError(problems)
+    x, dx = _gauss_lines(np.asarray(wheel_x, dtype=float))
+    y, dy = _gauss_lines(np.asarray(wheel_y, dtype=float))
+    top, slope = np.asarray(rail.running_surface(y)), np.asarray(rail.running_slope(y))
+    if not np.all(np.isfinite(top)):
+        raise InputError(
+            f"contact grid from y = {y[0]:.4g} to {y[-1]:.4g} m reaches beyond the running "
+            f"surface of {rail.name}"
+        )
+    # n = (0, -z', 1)/sqrt(1 + z'^2); a vertical distance d is d n_z along the normal
+    normal = 1.0 / np.sqrt(1.0 + slope**2)
+    drop = rolling_drop(x, np.asarray(wheel.height(y - lateral_shift)), radius)
+    gap = (drop - top[None, :]) * normal[None, :]
+    factor = 2.0 if symmetric else 1.0
+    # dA = dx dy / n_z on the rail's surface
+    area = factor * dx[:, None] * (dy / normal)[None, :]
+    my = len(wheel_y)
+    rows = grid_rows(line_rows(wheel_x, x, 1), line_rows(wheel_y, y, 1), my)
+    facet = (np.arange(len(x))[:, None] // 2) * (my - 1) + np.arange(len(y))[None, :] // 2
+    return ContactPoints(
+        x,
+        y,
+        np.asarray(wheel_x, dtype=float),
+        np.asarray(wheel_y, dtype=float),
+        gap.ravel(),
+        np.tile(normal, len(x)),
+        area.ravel(),
+        facet.ravel().astype(np.int64),
+        rows,
+        symmetric,
+    )

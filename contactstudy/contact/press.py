@@ -1,0 +1,205 @@
+"""Static press of two bodies: force over approach, tangent stiffness, contact ellipse."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contactstudy.contact.interpolation import Rows, grid_rows, line_rows
+from contactstudy.contact.points import ContactPoints
+from contactstudy.contact.surface import PressedForces, press
+from contactstudy.exceptions import InputError
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class ContactEllipse:
+    """Semi-axes and peak pressure of the ellipse of Hertz with the moments of a pressure field.
+
+    Hertz's pressure ``p0 sqrt(1 - x^2/a^2 - y^2/b^2)`` has ``<x^2> = a^2/5`` under its own
+    weight and ``F = 2/3 pi a b p0``. Integrals, unlike the outermost active point, vary
+    smoothly with the load and converge quickly with the mesh.
+
+    Attributes
+    ----------
+    along, across : float
+        Semi-axes in x and y, m.
+    peak_pressure : float
+        p0 in Pa.
+    centre : tuple of float
+        Centre of pressure (x, y) in m; y = 0 on a plane of symmetry.
+    """
+
+    along: float
+    across: float
+    peak_pressure: float
+    centre: tuple[float, float]
+
+
+@dataclass(frozen=True)
+class PressCurve:
+    """Force over approach of a static press.
+
+    Attributes
+    ----------
+    force, approach, stiffness : ndarray (k,)
+        Resultants in N, approaches in m, tangents dF/d(approach) in N/m.
+    solutions : tuple of PressedForces
+        Forces at the contact points for every load.
+    """
+
+    force: Array
+    approach: Array
+    stiffness: Array
+    solutions: tuple[PressedForces, ...]
+
+    @property
+    def exponent(self) -> float:
+        """Least-squares slope of log F over log approach (Hertz: 1.5)."""
+        return float(np.polyfit(np.log(self.approach), np.log(self.force), 1)[0])
+
+
+def tangent_stiffness(curve: PressCurve, load: float) -> float:
+    """Tangent dF/d(approach) of a press curve at a load, free of the mesh's steps.
+
+    As the patch grows points enter it one after the other: the computed curve is a polygon
+    whose own slope jumps by a few percent. So the curve ``approach = c1 F^(2/3) + c2 F``,
+    Hertz's local part and a linear part for the bodies at large, is fitted first.
+
+    Parameters
+    ----------
+    curve : PressCurve
+        With at least four loads on both sides of `load`.
+    load : float
+        In N.
+
+    Returns
+    -------
+    float
+        N/m.
+
+    Raises
+    ------
+    InputError
+        If the curve has fewer than four loads or they do not enclose the load.
+    """
+    F = curve.force
+    if len(F) < 4 or not F.min() <= load <= F.max():
+        raise InputError(
+            f"tangent stiffness at {load} N: the press curve must have four loads or more around "
+            f"it (it has {len(F)} from {F.min():.6g} to {F.max():.6g} N)"
+        )
+    basis = np.stack([F ** (2 / 3), F], axis=1)
+    c1, c2 = np.linalg.lstsq(basis, curve.approach, rcond=None)[0]
+    # d(approach)/dF = 2/3 c1 F^(-1/3) + c2
+    return float(1.0 / (2 / 3 * c1 * load ** (-1 / 3) + c2))
+
+
+def rail_rows(points: ContactPoints, rail_x: Array, rail_y: Array, offset: float = 0.0) -> Rows:
+    """Cubic interpolation from the nodes of a running surface to the contact points.
+
+    Parameters
+    ----------
+    points : ContactPoints
+        The n contact points.
+    rail_x, rail_y : ndarray (nx,), (ny,)
+        Grid lines of the surface nodes in m, node index ``ix*ny + iy``.
+    offset : float
+        Position of the wheel in the axis of `rail_x` in m.
+
+    Returns
+    -------
+    Rows
+        (n, 16)
+    """
+    return grid_rows(
+        line_rows(rail_x, points.x + offset, 3),
+        line_rows(rail_y, points.y, 3, mirrored=points.symmetric),
+        len(rail_y),
+    )
+
+
+def penalty_compliance(points: ContactPoints, penalty: float) -> Array:
+    """Compliance 1/(eps A) of the penalty at each point, (n,) in m/N."""
+    if not penalty > 0:
+        raise InputError(f"contact penalty = {penalty} Pa/m: must be positive")
+    return np.asarray(1.0 / (penalty * points.area))
+
+
+def press_curve(
+    points: ContactPoints,
+    flexibility: Array,
+    loads: Array,
+    penalty: float = 1e16,
+    reference: Array | None = None,
+) -> PressCurve:
+    """Press two bodies together with given forces.
+
+    Parameters
+    ----------
+    points : ContactPoints
+        Geometry of the n contact points.
+    flexibility : ndarray (n, n)
+        Growth of the gap at the points (along the normal) in m for unit normal forces in N,
+        of both bodies together.
+    loads : ndarray (k,)
+        Vertical resultants in N, positive.
+    penalty : float
+        In Pa/m.
+    reference : ndarray (n,), optional
+        Downward displacement in m/N of a reference on the lower body (the rail's centre line)
+        for unit forces at the points: the approach is then measured from there instead of from
+        the point to which the flexibility is fixed.
+
+    Returns
+    -------
+    PressCurve
+    """
+    M = flexibility + np.diag(penalty_compliance(points, penalty))
+    normal = points.normal_z
+    approach, stiffness, solutions = [], [], []
+    last: PressedForces | None = None
+    for load in np.asarray(loads, dtype=float):
+        last = press(
+            M,
+            points.gap,
+            normal,
+            float(load),
+            None if last is None else last.active,
+            None if last is None else last.approach,
+        )
+        delta, compliance = last.approach, 1.0 / last.stiffness
+        if reference is not None:
+            # d lam/dF = M_AA^-1 n_A / (n_A^T M_AA^-1 n_A)
+            active = last.active
+            rate = np.linalg.solve(M[np.ix_(active, active)], normal[active]) / last.stiffness
+            delta -= float(reference @ last.forces)
+            compliance -= float(reference[active] @ rate)
+        approach.append(delta)
+        stiffness.append(1.0 / compliance)
+        solutions.append(last)
+    return PressCurve(
+        np.asarray(loads, dtype=float), np.array(approach), np.array(stiffness), tuple(solutions)
+    )
+
+
+def contact_ellipse(points: ContactPoints, forces: Array) -> ContactEllipse:
+    """Ellipse with the resultant and second moments of a pressure field.
+
+    Parameters
+    ----------
+    points : ContactPoints
+        The n contact points.
+    forces : ndarray (n,)
+        Normal forces in N, not all zero.
+    """
+    x, y = points.x_of_points, points.y_of_points
+    total = float(forces.sum())
+    if not total > 0:
+        raise InputError("contact ellipse: there is no contact")
+    cx = float(forces @ x) / total
+    cy = 0.0 if points.symmetric else float(forces @ y) / total
+    a = float(np.sqrt(5 * (forces @ (x - cx) ** 2) / total))
+    b = float(np.sqrt(5 * (forces @ (y - cy) ** 2) / total))
+    return ContactEllipse(a, b, 1.5 * total / (np.pi * a * b), (cx, cy))

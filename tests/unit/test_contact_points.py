@@ -1,0 +1,103 @@
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from contactstudy.contact.interpolation import grid_rows, line_rows
+from contactstudy.contact.points import contact_points, rolling_drop
+from contactstudy.exceptions import InputError
+from contactstudy.profiles import rail_profile, wheel_profile
+
+LINES = np.array([0.0, 1.0, 2.5, 3.0, 4.5, 6.0])
+
+
+@given(st.lists(st.floats(0.0, 6.0), min_size=1, max_size=20))
+def test_interpolation_reproduces_polynomials(points: list[float]) -> None:
+    s = np.array(points)
+    for degree in (1, 3):
+        rows = line_rows(LINES, s, degree)
+        for power in range(degree + 1):
+            value = (rows.weight * LINES[rows.index] ** power).sum(axis=1)
+            np.testing.assert_allclose(value, s**power, atol=1e-11 * 6.0**power)
+
+
+def test_mirrored_lines_reproduce_even_polynomials() -> None:
+    s = np.linspace(0.0, 1.0, 7)
+    rows = line_rows(LINES, s, 3, mirrored=True)
+    f = LINES**2
+    np.testing.assert_allclose((rows.weight * f[rows.index]).sum(axis=1), s**2, atol=1e-12)
+
+
+def test_product_rows() -> None:
+    x, y = np.array([0.3, 1.7]), np.array([0.1, 2.0, 5.5])
+    rows = grid_rows(line_rows(LINES, x, 3), line_rows(LINES, y, 3), len(LINES))
+    f = np.add.outer(LINES**3, 2 * LINES**2).ravel()
+    expected = np.add.outer(x**3, 2 * y**2).ravel()
+    np.testing.assert_allclose((rows.weight * f[rows.index]).sum(axis=1), expected)
+    np.testing.assert_allclose(rows.matrix(f.size) @ f, expected)
+
+
+def test_interpolation_refuses_points_outside() -> None:
+    with pytest.raises(InputError, match="outside the"):
+        line_rows(LINES, np.array([6.1]), 3)
+    with pytest.raises(InputError, match="needs 4 lines"):
+        line_rows(LINES[:3], np.array([1.0]), 3)
+    with pytest.raises(InputError, match="must be 1 or 3"):
+        line_rows(LINES, np.array([1.0]), 2)
+
+
+def half_points(**changes: object):  # type: ignore[no-untyped-def]
+    arguments: dict = {
+        "wheel_x": np.arange(-6, 7) * 2e-3,
+        "wheel_y": np.arange(0, 5) * 2e-3,
+        "radius": 0.43,
+        "rail": rail_profile("60E1"),
+        "wheel": wheel_profile("cylinder"),
+    }
+    return contact_points(**(arguments | changes))
+
+
+def test_gap_is_that_of_the_smooth_profiles() -> None:
+    points = half_points()
+    x, y = points.x_of_points, points.y_of_points
+    vertical = (0.43 - np.sqrt(0.43**2 - x**2)) + (0.30 - np.sqrt(0.30**2 - y**2))
+    normal = np.sqrt(1 - (y / 0.30) ** 2)
+    np.testing.assert_allclose(points.normal_z, normal, rtol=1e-12)
+    np.testing.assert_allclose(points.gap, vertical * normal, atol=1e-15)
+
+
+def test_areas_fill_the_surface_and_count_both_halves() -> None:
+    half, x = half_points(), 24e-3
+    whole = half_points(wheel_y=np.arange(-4, 5) * 2e-3, symmetric=False)
+    width = 2 * 0.30 * np.arcsin(8e-3 / 0.30)
+    assert half.area.sum() == pytest.approx(x * width, rel=1e-6)
+    assert whole.area.sum() == pytest.approx(half.area.sum(), rel=1e-12)
+
+
+def test_nodal_pressure_keeps_a_uniform_pressure() -> None:
+    points = half_points()
+    np.testing.assert_allclose(points.nodal_pressure(7.0 * points.area), 7.0)
+
+
+def test_wheel_rows_interpolate_bilinearly() -> None:
+    points = half_points()
+    X, Y = np.meshgrid(points.wheel_x, points.wheel_y, indexing="ij")
+    field = (1 + 2 * X + 3 * Y + 4 * X * Y).ravel()
+    x, y = points.x_of_points, points.y_of_points
+    value = (points.wheel_rows.weight * field[points.wheel_rows.index]).sum(axis=1)
+    np.testing.assert_allclose(value, 1 + 2 * x + 3 * y + 4 * x * y)
+
+
+def test_drop_of_a_cone() -> None:
+    drop = rolling_drop(np.array([0.0, 0.1]), np.array([0.0, 1e-3]), 0.43)
+    np.testing.assert_allclose(drop[0], [0.0, 1e-3])
+    np.testing.assert_allclose(drop[1], 0.43 - np.sqrt(np.array([0.43, 0.429]) ** 2 - 0.01))
+
+
+def test_bad_geometry_is_refused() -> None:
+    with pytest.raises(InputError, match="radius"):
+        half_points(radius=-1.0)
+    with pytest.raises(InputError, match="lateral shift"):
+        half_points(lateral_shift=1e-3)
+    with pytest.raises(InputError, match="running surface"):
+        half_points(wheel_y=np.array([0.0, 0.05]))
