@@ -1,1 +1,1 @@
-"""Contact of wheel and rail: closed forms, laws at a point, and pressure over a meshed patch."""
+"""Contact: closed forms (hertz), a spring at a point (point), pressure over a patch (surface)."""

@@ -13,7 +13,7 @@ from contactstudy.banded import LinearSystem
 from contactstudy.dynamics import Coupling, Integrator, State, march, static_start
 from contactstudy.solvers.dataset import history_dataset
 from contactstudy.solvers.journey import Journey
-from contactstudy.track.model import Direction
+from contactstudy.track.model import Direction, Track
 from contactstudy.vehicle import Vehicle
 
 Irregularity = Callable[[np.ndarray], np.ndarray]
@@ -25,6 +25,10 @@ STEPS_PER_REPORT = 100
 
 class DiscreteTrack(Protocol):
     """What a discretised track offers, beam or solid."""
+
+    @property
+    def track(self) -> Track:
+        """The track that is discretised."""
 
     @property
     def n_dofs(self) -> int:

@@ -1,0 +1,191 @@
+"""Contact laws of a wheel at a point, and the forces of all wheels in one step.
+
+Per wheel i the gap is g_i = g*_i + sum_j W_ij lambda_j with the free gap g* and the compliance
+W of track, wheel and loaded element. Every law gives the TOTAL force lambda in compression.
+Vertical contact is unilateral: lambda >= 0 always; lateral contact (`bilateral`) is not.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from contactstudy.exceptions import NumericalError
+from contactstudy.validation import positive, raise_if
+
+_ITERATIONS = 100
+
+
+@dataclass(frozen=True)
+class LinearSpring:
+    """The paper's constant k_r: lambda = static load - k_r g, zero once that is a tension.
+
+    The static load already sits on the rail (eq. 5), so k_r carries the dynamic part only. The
+    constant that matches Hertz's law there is its tangent stiffness, 1.5 times the secant of
+    eq. (7).
+
+    Parameters
+    ----------
+    stiffness : float
+        k_r [N/m].
+    """
+
+    stiffness: float
+
+    def __post_init__(self) -> None:
+        raise_if(positive("contact stiffness k_r", self.stiffness, "N/m"))
+
+
+@dataclass(frozen=True)
+class RigidContact:
+    """No contact deformation: g = 0 while pressed."""
+
+
+@dataclass(frozen=True)
+class HertzSpring:
+    """Hertz's nonlinear law of the total force, lambda = k_H (-g)^(3/2), zero when apart.
+
+    Parameters
+    ----------
+    stiffness : float
+        k_H [N/m^1.5], see `contactstudy.contact.hertz`.
+    """
+
+    stiffness: float
+
+    def __post_init__(self) -> None:
+        raise_if(positive("Hertz stiffness k_H", self.stiffness, "N/m^1.5"))
+
+
+@dataclass(frozen=True)
+class MovingForce:
+    """The static load itself, whatever wheel and rail do."""
+
+
+ContactLaw = LinearSpring | RigidContact | HertzSpring | MovingForce
+
+
+def contact_forces(
+    law: ContactLaw,
+    compliance: np.ndarray,
+    free_gap: np.ndarray,
+    static_loads: np.ndarray,
+    bilateral: bool = False,
+) -> np.ndarray:
+    """Forces of all wheels that satisfy the law at the end of a step.
+
+    Parameters
+    ----------
+    law : ContactLaw
+    compliance : ndarray
+        W, (nw, nw), symmetric positive definite, local compliance included [m/N].
+    free_gap : ndarray
+        g*, (nw,) [m].
+    static_loads : ndarray
+        (nw,) [N].
+    bilateral : bool
+        Whether tension is possible; not for Hertz's law.
+
+    Returns
+    -------
+    ndarray
+        lambda, (nw,) [N].
+
+    Raises
+    ------
+    NumericalError
+        If the nonlinear equations of several wheels do not converge.
+    """
+    match law:
+        case MovingForce():
+            return static_loads.copy()
+        case HertzSpring(stiffness=k_hertz):
+            if len(free_gap) == 1:
+                force = _hertz_one(k_hertz, float(compliance[0, 0]), float(free_gap[0]))
+                return np.array([force])
+            return _hertz_many(k_hertz, compliance, free_gap)
+        case LinearSpring(stiffness=k_r):
+            # lambda = F - k_r (g* + W lambda)  =>  (W + 1/k_r) lambda = F/k_r - g*
+            flexibility = compliance + np.eye(len(free_gap)) / k_r
+            return _linear(flexibility, static_loads / k_r - free_gap, bilateral)
+        case RigidContact():
+            return _linear(compliance, -free_gap, bilateral)
+
+
+def _linear(flexibility: np.ndarray, target: np.ndarray, bilateral: bool) -> np.ndarray:
+    """Solve flexibility @ lambda = target, or its complementarity problem with lambda >= 0.
+
+    One wheel has a closed form. For several the linear solution counts if nowhere tensile, and
+    otherwise projected Gauss-Seidel sweeps, which converge for every positive definite matrix,
+    find who is apart.
+    """
+    if len(target) == 1:
+        force = target / flexibility[0]
+        return force if bilateral else np.maximum(force, 0.0)
+    force = np.linalg.solve(flexibility, target)
+    if bilateral or np.all(force >= 0.0):
+        return force
+    force = np.maximum(force, 0.0)
+    for _ in range(1000 * _ITERATIONS):
+        before = force.copy()
+        for i in range(len(force)):
+            rest = target[i] - flexibility[i] @ force + flexibility[i, i] * force[i]
+            force[i] = max(0.0, rest / flexibility[i, i])
+        if np.abs(force - before).max() <= 1e-14 * np.abs(force).max(initial=1e-300):
+            return force
+    raise NumericalError(f"contact of {len(force)} wheels: the contact forces do not converge")
+
+
+def _hertz_one(k_hertz: float, compliance: float, free_gap: float) -> float:
+    """Scalar Newton in the penetration d: g* + W k_H d^(3/2) + d = 0.
+
+    The left side is convex and increasing, so Newton's method started on its right side, at
+    d = -g*, decreases steadily to the solution.
+    """
+    if free_gap >= 0.0:
+        return 0.0
+    if not math.isfinite(free_gap):
+        return math.nan  # reported by the stepper, with step and position
+    d = -free_gap
+    stiffness = compliance * k_hertz
+    for _ in range(_ITERATIONS):
+        root = math.sqrt(d)
+        move = (free_gap + stiffness * d * root + d) / (1.5 * stiffness * root + 1.0)
+        d -= move
+        if abs(move) <= 4e-16 * abs(d):
+            break
+        d = max(d, 0.0)
+    return k_hertz * d * math.sqrt(d)
+
+
+def _hertz_many(k_hertz: float, compliance: np.ndarray, free_gap: np.ndarray) -> np.ndarray:
+    """Newton with a line search on g* + W k_H d_+^(3/2) + d = 0, d < 0 being an open gap."""
+    n = len(free_gap)
+    if not np.all(np.isfinite(free_gap)):
+        return np.full(n, np.nan)  # reported by the stepper, with step and position
+
+    def residual(d: np.ndarray) -> np.ndarray:
+        return free_gap + compliance @ (k_hertz * np.maximum(d, 0.0) ** 1.5) + d
+
+    d = -free_gap
+    r = residual(d)
+    for _ in range(_ITERATIONS):
+        if np.abs(r).max() <= 1e-15 * np.abs(free_gap).max():
+            break
+        # I + W D is regular for W positive definite and D >= 0
+        slope = 1.5 * k_hertz * np.sqrt(np.maximum(d, 0.0))
+        move = -np.linalg.solve(np.eye(n) + compliance * slope, r)
+        length, size = 1.0, np.linalg.norm(r)
+        while length > 1e-10:
+            trial = residual(d + length * move)
+            if np.linalg.norm(trial) < size:
+                break
+            length *= 0.5
+        else:
+            break  # no further decrease: either solved to rounding, or stuck (checked below)
+        d, r = d + length * move, trial
+    if np.abs(r).max() > 1e-12 * np.abs(free_gap).max():
+        raise NumericalError(
+            f"Hertz contact of {n} wheels does not converge: {np.abs(r).max():.3g} m left"
+        )
+    return k_hertz * np.maximum(d, 0.0) ** 1.5
