@@ -74,6 +74,8 @@ class Spectrum:
         Where the formula and its numbers come from.
     parameters : tuple of (str, float)
         The formula's numbers, in the source's units.
+    breaks : tuple of float
+        Wavenumbers of ``convention`` at which the formula has a kink or a jump.
     """
 
     name: str
@@ -81,6 +83,7 @@ class Spectrum:
     convention: Convention
     source: str
     parameters: tuple[tuple[str, float], ...] = ()
+    breaks: tuple[float, ...] = ()
 
     def __call__(self, omega: ArrayLike) -> NDArray[np.float64]:
         """Two-sided density [m^2/(rad/m)] at angular wavenumbers omega > 0 [rad/m]."""
@@ -103,14 +106,16 @@ class Spectrum:
 
     def variance(self, lower: float, upper: float) -> float:
         """Variance between two angular wavenumbers [rad/m]: 2 int G d omega [m^2]."""
+        turn = 1.0 if self.convention.wavenumber == "rad/m" else 2.0 * np.pi
+        kinks = [turn * k for k in self.breaks if lower < turn * k < upper]
         # integrated over ln omega, in which a power law is smooth over many decades
-        edges = np.linspace(np.log(lower), np.log(upper), 41)
-        return float(
-            sum(
-                quad(lambda s: 2.0 * np.exp(s) * float(self(np.exp(s))), a, b, epsrel=1e-10)[0]
-                for a, b in itertools.pairwise(edges)
-            )
-        )
+        edges = np.sort(np.log([*np.geomspace(lower, upper, 21), *kinks]))
+
+        def share(s: float) -> float:
+            return 2.0 * np.exp(s) * float(self(np.exp(s)))
+
+        parts = (quad(share, a, b, epsrel=1e-10)[0] for a, b in itertools.pairwise(edges))
+        return float(sum(parts))
 
 
 def paper_spectrum(
@@ -221,7 +226,9 @@ def tbt3352() -> Spectrum:
         for key, value in zip(("A", "n"), row[1:], strict=True)
     )
     convention = Convention("one", "1/m", 1e-6)
-    return Spectrum("TB/T 3352 ballastless", formula, convention, "TB/T 3352-2014", numbers)
+    return Spectrum(
+        "TB/T 3352 ballastless", formula, convention, "TB/T 3352-2014", numbers, tuple(ends)
+    )
 
 
 _NAMED: dict[str, tuple[Callable[..., Spectrum], dict[str, Any]]] = {
