@@ -127,26 +127,33 @@ def measured_profile(
         x, level = read_columns(file, (x_column, level_column))
     except InputError as error:
         raise InputError([*error.problems, *problems]) from None
+    x = x - origin
+    if required is not None:
+        problems += _uncovered(str(file), (float(x[0]), float(x[-1])), *required)
     if problems:
         raise InputError(problems)
-    x, level = x - origin, level * UNITS[level_unit]
+    level = level * UNITS[level_unit]
     if wavelengths is not None:
         x, level = _band_passed(file, x, level, wavelengths, interpolation)
-    profile = MeasuredProfile(x, level, interpolation, wavelengths, str(file))
-    if required is not None:
-        check_coverage(profile, *required)
-    return profile
+    return MeasuredProfile(x, level, interpolation, wavelengths, str(file))
 
 
 def check_coverage(profile: MeasuredProfile, start: float, end: float) -> None:
     """Raise ``InputError`` unless the profile is known from ``start`` to ``end`` [m]."""
-    low, high = profile.domain
+    problems = _uncovered(profile.name, profile.domain, start, end)
+    if problems:
+        raise InputError(problems)
+
+
+def _uncovered(name: str, domain: tuple[float, float], start: float, end: float) -> list[str]:
+    low, high = domain
     slack = 1e-9 * max(abs(low), abs(high), 1.0)
-    if not (low - slack <= start and end <= high + slack):
-        raise InputError(
-            f"{profile.name}: positions X from {start:g} m to {end:g} m are wanted; the file "
-            f"covers {low:g} m to {high:g} m ('origin' is the file's position at X = 0)"
-        )
+    if low - slack <= start and end <= high + slack:
+        return []
+    return [
+        f"{name}: positions X from {start:g} m to {end:g} m are wanted; the file "
+        f"covers {low:g} m to {high:g} m ('origin' is the file's position at X = 0)"
+    ]
 
 
 def _band_passed(

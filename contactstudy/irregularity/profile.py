@@ -111,8 +111,9 @@ class HarmonicProfile:
             return None
         step = np.diff(self.wavenumbers)
         mean = float(self.wavenumbers[-1] - self.wavenumbers[0]) / step.size
-        # the wavenumbers' own rounding, 1e-16 of 20 rad/m, is 1e-13 of Table 1's spacing
-        return mean if mean > 0.0 and np.abs(step - mean).max() < 1e-10 * mean else None
+        # no more than the wavenumbers' own rounding, which the phases cannot tell apart
+        rounding = 8.0 * np.finfo(float).eps * float(np.abs(self.wavenumbers).max())
+        return mean if mean > 0.0 and np.abs(step - mean).max() < rounding else None
 
     @property
     def domain(self) -> tuple[float, float]:

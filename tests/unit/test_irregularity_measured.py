@@ -120,6 +120,13 @@ def test_files_that_cannot_be_read(tmp_path):
         measured_profile(tmp_path / "binary.csv", "level_mm", "mm")
 
 
+def test_arguments_and_coverage_are_reported_together(tmp_path):
+    file = _wave(tmp_path / "short.csv", np.arange(50.0), np.zeros(50))
+    with pytest.raises(InputError) as caught:
+        measured_profile(file, "level_mm", "feet", required=(6.0, 60.0))
+    assert len(caught.value.problems) == 2
+
+
 def test_a_long_list_of_faults_is_cut(tmp_path):
     rows = "\n".join(f"{i},x" for i in range(50))
     with pytest.raises(InputError, match="and 40 more faults of this kind"):
