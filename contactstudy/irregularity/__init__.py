@@ -10,20 +10,18 @@ from contactstudy.irregularity.estimate import (
     spectral_estimate,
     third_octave_levels,
 )
+from contactstudy.irregularity.fade import FadedProfile, faded
 from contactstudy.irregularity.measured import MeasuredProfile, check_coverage, measured_profile
 from contactstudy.irregularity.profile import (
-    FadedProfile,
     HarmonicProfile,
     Profile,
     RepeatWarning,
     SmoothRail,
     check_repeat,
-    faded,
 )
+from contactstudy.irregularity.psd import Convention, Spectrum
 from contactstudy.irregularity.sample import sample_profile
 from contactstudy.irregularity.spectra import (
-    Convention,
-    Spectrum,
     fra,
     german,
     paper_spectrum,

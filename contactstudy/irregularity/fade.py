@@ -1,0 +1,83 @@
+"""Profiles that grow smoothly from nothing."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from contactstudy.exceptions import InputError
+from contactstudy.irregularity.profile import Profile, check_derivative
+
+
+@dataclass(frozen=True, eq=False)
+class FadedProfile:
+    """A profile that grows smoothly from nothing; made by ``faded``.
+
+    Parameters
+    ----------
+    profile : Profile
+        The profile behind the fade-in.
+    start, length : float
+        Where the fade-in starts and how long it is [m].
+    """
+
+    profile: Profile
+    start: float
+    length: float
+
+    @property
+    def domain(self) -> tuple[float, float]:
+        """The profile's own, and everything before the fade-in starts [m]."""
+        low, high = self.profile.domain
+        return (-np.inf if low <= self.start else low), high
+
+    @property
+    def repeat_length(self) -> float:
+        """That of the profile [m]."""
+        return self.profile.repeat_length
+
+    def __call__(self, x: ArrayLike, derivative: int = 0) -> NDArray[np.float64]:
+        """Value or derivative at positions x of any shape [m, 1, 1/m]."""
+        check_derivative(derivative)
+        position = np.asarray(x, dtype=float)
+        out = np.zeros(position.shape)
+        on = position > self.start
+        out[on] = self._on(position[on], derivative)
+        return out
+
+    def _on(self, x: NDArray[np.float64], derivative: int) -> NDArray[np.float64]:
+        # s(t) = 10 t^3 - 15 t^4 + 6 t^5 with t = (X - start)/length: s' and s'' vanish at both
+        # ends, so that the wheel feels no jump in velocity or acceleration
+        t = np.minimum((x - self.start) / self.length, 1.0)
+        s0 = t**3 * (10.0 - 15.0 * t + 6.0 * t * t)
+        r0 = self.profile(x)
+        if derivative == 0:
+            return s0 * r0
+        s1 = 30.0 * t**2 * (1.0 - t) ** 2 / self.length
+        r1 = self.profile(x, 1)
+        if derivative == 1:
+            return s1 * r0 + s0 * r1
+        s2 = 60.0 * t * (1.0 - t) * (1.0 - 2.0 * t) / self.length**2
+        return s2 * r0 + 2.0 * s1 * r1 + s0 * self.profile(x, 2)
+
+
+def faded(profile: Profile, start: float, length: float) -> Profile:
+    """Profile multiplied by a quintic smoothstep from 0 at ``start`` to 1 ``length`` later.
+
+    Parameters
+    ----------
+    profile : Profile
+        The profile to fade in.
+    start : float
+        Position up to which it is zero [m].
+    length : float
+        Length of the fade-in [m]; 0 leaves the profile as it is.
+
+    Raises
+    ------
+    InputError
+        If the length is negative or not a number.
+    """
+    if not length >= 0.0 or not np.isfinite(length):
+        raise InputError(f"fade-in length is {length} m; allowed: 0 m or more")
+    return profile if length == 0.0 else FadedProfile(profile, start, length)
