@@ -11,6 +11,7 @@ import multiprocessing
 import os
 import signal
 import traceback
+import warnings
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from multiprocessing.connection import Connection, wait
@@ -75,6 +76,7 @@ def run_tasks(
     jobs: int = 2,
     progress: Callable[[str, int, int], None] | None = None,
     finished: Callable[[str, Outcome], None] | None = None,
+    note: Callable[[str, str], None] | None = None,
 ) -> dict[str, Outcome]:
     """Run tasks, `jobs` at a time, in the order given as far as `after` allows.
 
@@ -88,6 +90,8 @@ def run_tasks(
         ``progress(name, done, total)``, called in this process.
     finished : callable, optional
         ``finished(name, outcome)``, called as each task ends.
+    note : callable, optional
+        ``note(name, text)``, called for each warning that a task gives.
 
     Returns
     -------
@@ -112,7 +116,7 @@ def run_tasks(
                 running.append(_start(task))
             if not running:
                 raise RuntimeError(f"tasks wait for each other: {[t.name for t in waiting]}")
-            for worker in _messages(running, progress):
+            for worker in _messages(running, progress, note):
                 running.remove(worker)
                 outcomes[worker.task.name] = outcome = _end(worker)
                 if finished is not None:
@@ -139,7 +143,9 @@ def _start(task: Task) -> _Worker:
 
 
 def _messages(
-    running: list[_Worker], progress: Callable[[str, int, int], None] | None
+    running: list[_Worker],
+    progress: Callable[[str, int, int], None] | None,
+    note: Callable[[str, str], None] | None,
 ) -> Iterator[_Worker]:
     """Wait for messages of the workers; yield those that have ended."""
     pipes = {worker.pipe: worker for worker in running}
@@ -154,6 +160,9 @@ def _messages(
         if isinstance(message, Outcome):
             worker.outcome = message
             yield worker
+        elif isinstance(message, str):
+            if note is not None:
+                note(worker.task.name, message)
         elif progress is not None:
             progress(worker.task.name, *message)
 
@@ -180,6 +189,11 @@ def _work(pipe: Connection, task: Task) -> None:
     def progress(done: int, total: int) -> None:
         pipe.send((done, total))
 
+    def warned(message: Warning | str, category: type[Warning], *_: Any, **__: Any) -> None:
+        if issubclass(category, UserWarning):  # others are for developers
+            pipe.send(str(message))
+
+    warnings.showwarning = warned
     try:
         with threadpool_limits(1):
             outcome = Outcome(value=task.function(*task.arguments, progress))

@@ -127,13 +127,26 @@ def _solid_on_track(solid: SolidTable, track: TrackTable) -> list[str]:
     if not _whole(spacing / solid.cell_length):
         allowed = f"must divide {spacing:g} m into whole cells (m)"
         problems.append(complaint("solid.cell_length", solid.cell_length, allowed))
+    elif solid.cell_length < 4 * solid.mesh_size:
+        allowed = f"must be at least 4 elements of solid.mesh_size, {4 * solid.mesh_size:g} m"
+        problems.append(complaint("solid.cell_length", solid.cell_length, allowed))
     return problems
 
 
-def lateral_surface(runs: Mapping[str, RunTable]) -> list[str]:
-    """Complaints about point runs that combine what the solid rail cannot do."""
-    return [
-        complaint(f"runs.{name}.direction", run.direction, 'must be "Z" on the solid rail')
-        for name, run in runs.items()
-        if isinstance(run, PointRun) and run.rail == "solid" and run.direction == "Y"
-    ]
+def runs(tables: Mapping[str, RunTable]) -> list[str]:
+    """Complaints about keys of one run against each other."""
+    problems = []
+    for name, run in tables.items():
+        if not isinstance(run, PointRun):
+            continue
+        path = f"runs.{name}"
+        if run.rail == "solid" and run.direction == "Y":
+            problems.append(complaint(f"{path}.direction", "Y", 'must be "Z" on the solid rail'))
+        if run.law == "hertz" and run.direction == "Y":
+            problems.append(complaint(f"{path}.direction", "Y", 'must be "Z" with law = "hertz"'))
+        rigid = run.law == "linear" and run.k_r == "rigid"
+        undamped = run.stepper == "average_acceleration" or run.rho_inf > 1.0 - 1e-6
+        if rigid and undamped:
+            allowed = 'must be "generalised_alpha" with rho_inf below 1 where k_r = "rigid"'
+            problems.append(complaint(f"{path}.integrator", run.stepper, allowed))
+    return problems

@@ -15,6 +15,8 @@ Position = Annotated[float, BeforeValidator(Limits("m"))]
 Speed = Annotated[float, BeforeValidator(Limits("m/s", above=0.0))]
 Duration = Annotated[float, BeforeValidator(Limits("s", above=0.0))]
 Wavenumber = Annotated[float, BeforeValidator(Limits("rad/m", above=0.0))]
+WavenumberOrZero = Annotated[float, BeforeValidator(Limits("rad/m", at_least=0.0))]
+Roughness = Annotated[float, BeforeValidator(Limits("m^2*rad/m", above=0.0))]
 Mass = Annotated[float, BeforeValidator(Limits("kg", above=0.0))]
 MassOrZero = Annotated[float, BeforeValidator(Limits("kg", at_least=0.0))]
 MassPerLength = Annotated[float, BeforeValidator(Limits("kg/m", above=0.0))]
@@ -33,6 +35,10 @@ Fraction = Annotated[float, BeforeValidator(Limits("", at_least=0.0, at_most=1.0
 Coefficient = Annotated[float, BeforeValidator(Limits("", above=0.0))]
 Count = Annotated[int, BeforeValidator(Limits("", at_least=1, whole=True))]
 CountOrZero = Annotated[int, BeforeValidator(Limits("", at_least=0, whole=True))]
+MeshSize = Annotated[float, BeforeValidator(Limits("m", above=0.0, at_most=0.008))]
+CellLength = Annotated[float, BeforeValidator(Limits("m", above=0.0, at_most=0.5))]
+InterfaceModes = Annotated[int, BeforeValidator(Limits("", at_least=3, at_most=60, whole=True))]
+InternalModes = Annotated[int, BeforeValidator(Limits("", at_least=0, at_most=40, whole=True))]
 
 CONTACT_STIFFNESS = Limits("N/m", above=0.0)
 ContactStiffness = Annotated[

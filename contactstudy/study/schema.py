@@ -26,7 +26,8 @@ class Section(BaseModel):
         if key not in self.applies:
             return True
         decider, values = self.applies[key]
-        return self.applicable(decider) and getattr(self, decider) in values
+        decided = decider not in type(self).model_fields or self.applicable(decider)
+        return decided and getattr(self, decider) in values
 
     def resolved(self) -> dict[str, Any]:
         """Key -> SI value of all keys that apply, as plain data."""
@@ -74,6 +75,9 @@ class IrregularityTable(Section):
         "paper", "german_low", "german_high", "fra1", "fra2", "fra3", "fra4", "fra5", "fra6",
         "tbt3352", "measured", "smooth",
     ] = "paper"  # fmt: skip
+    roughness: q.Roughness = 0.8e-7
+    omega_1: q.WavenumberOrZero = 0.0
+    omega_2: q.Wavenumber = 1.0
     seed: q.CountOrZero = 1
     terms: q.Count = 1000
     band: tuple[q.Wavenumber, q.Wavenumber] = (0.08, 20.0)
@@ -88,6 +92,9 @@ class IrregularityTable(Section):
     interpolation: Literal["cubic", "linear"] = "cubic"
 
     applies: ClassVar[dict[str, Condition]] = {
+        "roughness": ("spectrum", ("paper",)),
+        "omega_1": ("spectrum", ("paper",)),
+        "omega_2": ("spectrum", ("paper",)),
         "seed": ("spectrum", _GENERATED),
         "terms": ("spectrum", _GENERATED),
         "band": ("spectrum", _GENERATED),
@@ -121,6 +128,7 @@ class TrackTable(Section):
     bending_stiffness: q.BendingStiffness = 6.4155e6
     mass_per_length: q.MassPerLength = 60.367
     area: q.Area = 76.70e-4
+    crown_radius: q.Length = 0.3
     shear_coefficient: q.Coefficient = 0.4
     support: Literal["discrete", "winkler", "none"] = "discrete"
     spacing: q.Length = 0.6
@@ -144,7 +152,7 @@ class TrackTable(Section):
 
     applies: ClassVar[dict[str, Condition]] = {
         **dict.fromkeys(
-            ("bending_stiffness", "mass_per_length", "area", "shear_coefficient"),
+            ("bending_stiffness", "mass_per_length", "area", "shear_coefficient", "crown_radius"),
             ("rail", ("given",)),
         ),
         "density": ("rail", ("60E1",)),
@@ -169,9 +177,10 @@ class VehicleTable(Section):
     static_load: q.Force = 67.4e3
     wheel_radius: q.Length = 0.43
 
-    applies: ClassVar[dict[str, Condition]] = dict.fromkeys(
-        _SUSPENSION_KEYS, ("type", ("wheel_column",))
-    )
+    applies: ClassVar[dict[str, Condition]] = {
+        **dict.fromkeys(_SUSPENSION_KEYS, ("type", ("wheel_column",))),
+        "static_load": ("type", ("bare_wheel",)),
+    }
 
 
 class JourneyTable(Section):
@@ -188,10 +197,10 @@ class JourneyTable(Section):
 class SolidTable(Section):
     """``[solid]``: the meshed rail and wheel of surface contact."""
 
-    mesh_size: q.Length = 0.002
-    cell_length: q.Length = 0.1
-    interface_modes: q.Count = 12
-    internal_modes: q.CountOrZero = 6
+    mesh_size: q.MeshSize = 0.002
+    cell_length: q.CellLength = 0.1
+    interface_modes: q.InterfaceModes = 14
+    internal_modes: q.InternalModes = 6
     penalty: q.Penalty = 1e16
     wheel: Literal["elastic", "rigid"] = "elastic"
     pressure_at: tuple[q.Position, ...] = ()
@@ -202,10 +211,19 @@ class RunTable(Section):
 
     time_step: q.Duration | None = None
     irregularity: Literal["study", "smooth"] = "study"
-    integrator: Literal["average_acceleration", "generalised_alpha"] = "average_acceleration"
-    rho_inf: q.Fraction = 0.9
+    integrator: Literal["average_acceleration", "generalised_alpha"] | None = None
+    rho_inf: q.Fraction = 0.8
 
-    applies: ClassVar[dict[str, Condition]] = {"rho_inf": ("integrator", ("generalised_alpha",))}
+    applies: ClassVar[dict[str, Condition]] = {"rho_inf": ("stepper", ("generalised_alpha",))}
+
+    @property
+    def stepper(self) -> str:
+        """Name of the integrator: the one given, or the one that suits the run."""
+        return self.integrator or "average_acceleration"
+
+    def resolved(self) -> dict[str, Any]:
+        """Key -> SI value of all keys that apply, the integrator chosen."""
+        return super().resolved() | {"integrator": self.stepper}
 
     @property
     def needs_solid(self) -> bool:
@@ -229,6 +247,12 @@ class PointRun(RunTable):
         "local_compliance": ("rail", ("euler", "timoshenko")),
         "k_r": ("law", ("linear",)),
     }
+
+    @property
+    def stepper(self) -> str:
+        """As in `RunTable`; a rigid contact needs numerical damping."""
+        rigid = self.law == "linear" and self.k_r == "rigid"
+        return self.integrator or ("generalised_alpha" if rigid else "average_acceleration")
 
     @property
     def needs_solid(self) -> bool:

@@ -16,7 +16,7 @@ from contactstudy.sweep import ONE_THREAD, Outcome, Task, run_tasks
 def tasks_module(tmp_path, monkeypatch):
     (tmp_path / "sweep_tasks.py").write_text(
         """
-import os, signal, time
+import os, signal, time, warnings
 from contactstudy.exceptions import InputError, NumericalError
 
 def double(x, progress):
@@ -40,6 +40,10 @@ def sleeps(mark, progress):
     open(mark, "w").close()
     progress(1, 100)
     time.sleep(60)
+
+def warns(progress):
+    warnings.warn("the profile repeats itself")
+    warnings.warn("for developers", DeprecationWarning)
 
 def clock(progress):
     start = time.time(); time.sleep(0.2)
@@ -77,6 +81,12 @@ def test_errors_stay_with_their_task(tasks_module):
     assert type(outcomes["bug"].error) is ContactStudyError
     assert "ZeroDivisionError: a bug" in str(outcomes["bug"].error)
     assert outcomes["good"].value == 2
+
+
+def test_warnings_reach_the_parent(tasks_module):
+    notes: list[tuple[str, str]] = []
+    run_tasks([Task("a", tasks_module.warns)], note=lambda *call: notes.append(call))
+    assert notes == [("a", "the profile repeats itself")]
 
 
 def test_after_is_waited_for(tasks_module):

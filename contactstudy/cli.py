@@ -1,0 +1,158 @@
+"""Commands: run, check, reproduce, studies. Exit status 0, 1 (broke down), 2 (input), 130."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Annotated
+
+import cyclopts
+from cyclopts import App, Parameter
+from rich.console import Console
+
+from contactstudy import __version__
+from contactstudy.exceptions import ContactStudyError
+
+app = App(
+    name="contactstudy",
+    help="How wrong the simple wheel-rail contact model is: point against surface contact.",
+    version=__version__,
+    result_action="return_value",
+)
+
+Overrides = Annotated[
+    tuple[str, ...],
+    Parameter(
+        name="--set",
+        negative="",
+        help="Override a key of the study, e.g. --set journey.speed='250 km/h'; repeatable.",
+    ),
+]
+Jobs = Annotated[int, Parameter(name=["--jobs", "-j"], help="Runs at the same time.")]
+
+
+@app.command
+def run(
+    study: str,
+    *,
+    out: Annotated[Path, Parameter(name=["--out", "-o"])],
+    overrides: Overrides = (),
+    jobs: Jobs = 2,
+) -> None:
+    """Run a study; write result.nc, metrics.json, figures/ and report.pdf.
+
+    Parameters
+    ----------
+    study
+        A TOML file, or the name of a shipped study.
+    out
+        Folder for the results; finished runs found there are not computed again.
+    """
+    from contactstudy.study.loading import load_study
+    from contactstudy.study.runner import run_study
+    from contactstudy.study.terminal import TerminalReporter, print_summary
+
+    loaded = load_study(study, overrides)
+    with TerminalReporter(_errors()) as reporter:
+        results = run_study(loaded, out, jobs, reporter)
+    print_summary(results, out, Console())
+
+
+@app.command
+def check(study: str, *, overrides: Overrides = ()) -> None:
+    """Validate a study; print resolved values, sizes and the expected time. Runs nothing.
+
+    Parameters
+    ----------
+    study
+        A TOML file, or the name of a shipped study.
+    """
+    from contactstudy.study.forecast import print_check
+    from contactstudy.study.loading import load_study
+
+    print_check(load_study(study, overrides), Console())
+
+
+@app.command
+def reproduce(
+    *names: str,
+    out: Annotated[Path, Parameter(name=["--out", "-o"])] = Path("reports/out"),
+    overrides: Overrides = (),
+    jobs: Jobs = 2,
+) -> None:
+    """Run the studies that make the paper's figures, by default the main comparison.
+
+    Parameters
+    ----------
+    names
+        Shipped studies; the main one goes to the folder itself, others to folders below it.
+    out
+        Folder for the results.
+    """
+    from contactstudy.study.loading import load_study
+    from contactstudy.study.runner import run_study
+    from contactstudy.study.terminal import TerminalReporter, print_summary
+
+    main_study = "point_vs_surface"
+    loaded = [load_study(name, overrides) for name in names or (main_study,)]
+    for study in loaded:
+        folder = out if study.name == main_study else out / study.name
+        with TerminalReporter(_errors()) as reporter:
+            results = run_study(study, folder, jobs, reporter)
+        print_summary(results, folder, Console())
+
+
+@app.command
+def studies() -> None:
+    """List the shipped studies."""
+    import tomllib
+
+    from contactstudy.study.loading import shipped_studies
+
+    shipped = shipped_studies()
+    width = max(map(len, shipped), default=0)
+    for name, path in shipped.items():
+        title = tomllib.loads(path.read_text("utf-8")).get("title", "")
+        print(f"{name:<{width}}  {title}")
+
+
+def _errors() -> Console:
+    return Console(stderr=True)
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command line; returns the exit status.
+
+    Parameters
+    ----------
+    arguments : sequence of str, optional
+        Instead of ``sys.argv[1:]``.
+    """
+    tokens = list(sys.argv[1:] if arguments is None else arguments)
+    try:
+        app(tokens, exit_on_error=False, print_error=False)
+    except cyclopts.CycloptsError as error:
+        _complain(f"{error}\nTry 'contactstudy --help'.")
+        return 2
+    except ContactStudyError as error:
+        _complain(str(error))
+        return error.exit_status
+    except KeyboardInterrupt:
+        _complain("interrupted; finished runs are kept, the same command goes on from there")
+        return 130
+    except BrokenPipeError:  # output piped into a program that has stopped reading
+        sys.stderr.close()
+        return 141
+    return 0
+
+
+def _complain(text: str) -> None:
+    lines = text.splitlines() or [""]
+    print(
+        f"contactstudy: {lines[0]}", *(f"  {line}" for line in lines[1:]), sep="\n", file=sys.stderr
+    )
+
+
+if __name__ == "__main__":
+    sys.exit(main())

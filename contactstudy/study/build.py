@@ -1,0 +1,159 @@
+"""From the tables of a study to the objects that the solvers take."""
+
+from __future__ import annotations
+
+from contactstudy import integrators
+from contactstudy.contact.hertz import HertzContact, contact_modulus, hertz_contact
+from contactstudy.contact.laws import ContactLaw, HertzSpring, LinearSpring, RigidContact
+from contactstudy.profiles.rail import rail_profile
+from contactstudy.solids.cache import cached
+from contactstudy.solids.cell import RailCell, condense
+from contactstudy.solids.recipe import CellRecipe
+from contactstudy.solvers.journey import Journey
+from contactstudy.study.schema import PointRun, RunTable, Study
+from contactstudy.track.model import (
+    Ballast,
+    DiscreteSupports,
+    Rail,
+    Slab,
+    Support,
+    Track,
+    WinklerFoundation,
+)
+from contactstudy.track.solid import SolidTrack, solid_rail
+from contactstudy.vehicle import Vehicle, bare_wheel, wheel_column
+
+
+def recipe(study: Study) -> CellRecipe:
+    """Recipe of the solid rail's cell; beams take their section from the same mesh."""
+    track, solid = study.track, study.solid
+    return CellRecipe(
+        profile=track.rail,
+        size=solid.mesh_size,
+        length=solid.cell_length,
+        interface_modes=solid.interface_modes,
+        internal_modes=solid.internal_modes,
+        youngs_modulus=track.youngs_modulus,
+        poisson_ratio=track.poisson_ratio,
+        density=track.density,
+    )
+
+
+def rail(study: Study) -> Rail:
+    """The rail: integrals of the section mesh that the solid uses, or the values given."""
+    table = study.track
+    if table.rail != "given":
+        return solid_rail(recipe(study))
+    return Rail.from_values(
+        table.bending_stiffness,
+        table.mass_per_length,
+        area=table.area,
+        shear_coefficient=table.shear_coefficient,
+        youngs_modulus=table.youngs_modulus,
+        poisson_ratio=table.poisson_ratio,
+    )
+
+
+def support(study: Study) -> Support:
+    """What carries the rail."""
+    table = study.track
+    if table.support == "none":
+        return None
+    if table.support == "winkler":
+        return WinklerFoundation(table.foundation_stiffness, table.foundation_damping)
+    layer: Ballast | Slab
+    if table.layer == "slab":
+        layer = Slab(
+            bending_stiffness=table.slab_bending_stiffness,
+            mass_per_length=table.slab_mass_per_length,
+            stiffness=table.slab_bed_stiffness,
+            damping=table.slab_bed_damping,
+        )
+    else:
+        layer = Ballast(
+            stiffness=table.ballast_stiffness,
+            damping=table.ballast_damping,
+            lateral_stiffness=table.lateral_ballast_stiffness,
+            lateral_damping=table.lateral_ballast_damping,
+        )
+    return DiscreteSupports(
+        spacing=table.spacing,
+        pad_stiffness=table.pad_stiffness,
+        pad_damping=table.pad_damping,
+        pad_length=table.pad_length,
+        sleeper_mass=table.sleeper_mass,
+        layer=layer,
+        lateral_pad_stiffness=table.lateral_pad_stiffness,
+        lateral_pad_damping=table.lateral_pad_damping,
+    )
+
+
+def track(study: Study) -> Track:
+    """The track of all runs of a study."""
+    return Track(
+        rail=rail(study), support=support(study), length=study.track.length, ends=study.track.ends
+    )
+
+
+def solid_track(study: Study, described: Track) -> SolidTrack:
+    """The track on its meshed rail, whose cell is condensed or taken from the cache."""
+    return SolidTrack(described, cached(condense, RailCell, recipe(study)))
+
+
+def vehicle(study: Study) -> Vehicle:
+    """The vehicle of all runs of a study."""
+    table = study.vehicle
+    if table.type == "bare_wheel":
+        return bare_wheel(table.wheel_mass, table.static_load)
+    return wheel_column(
+        table.wheel_mass,
+        table.bogie_mass,
+        table.car_mass,
+        table.primary_stiffness,
+        table.primary_damping,
+        table.secondary_stiffness,
+        table.secondary_damping,
+    )
+
+
+def journey(study: Study, run: str) -> Journey:
+    """The journey with the time step of a run."""
+    table = study.journey
+    return Journey(
+        start=table.start,
+        end=table.end,
+        speed=table.speed,
+        time_step=study.time_step(run),
+        fade_in=table.fade_in,
+        stations=table.stations,
+    )
+
+
+def integrator(run: RunTable) -> integrators.Integrator:
+    """The time stepper of a run."""
+    if run.stepper == "generalised_alpha":
+        return integrators.generalised_alpha(run.rho_inf)
+    return integrators.average_acceleration()
+
+
+def hertz(study: Study) -> HertzContact:
+    """Hertz's contact of the study's wheel and rail under the static wheel load.
+
+    The wheel is a cylinder about the Y axis, the rail's crown one about the X axis.
+    """
+    table = study.track
+    crown = table.crown_radius if table.rail == "given" else rail_profile(table.rail).crown_radius
+    modulus = contact_modulus(table.youngs_modulus, table.poisson_ratio)
+    load = float(vehicle(study).static_loads[0])
+    return hertz_contact(load, modulus, study.vehicle.wheel_radius, crown)
+
+
+def contact_law(study: Study, run: PointRun) -> ContactLaw:
+    """The contact law of a point run."""
+    if run.law == "hertz":
+        return HertzSpring(hertz(study).stiffness)
+    if run.k_r == "rigid":
+        return RigidContact()
+    if run.k_r == "tangent":
+        return LinearSpring(hertz(study).tangent_stiffness)
+    return LinearSpring(float(run.k_r))

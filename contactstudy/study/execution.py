@@ -1,0 +1,62 @@
+"""One run of a study, in the process at hand."""
+
+from __future__ import annotations
+
+import sys
+
+import xarray as xr
+
+from contactstudy.study import build
+from contactstudy.study.roughness import irregularity_of
+from contactstudy.study.schema import PointRun, Study, SurfaceRun
+from contactstudy.sweep import Progress
+
+
+def execute_run(study: Study, run: str, progress: Progress | None = None) -> xr.Dataset:
+    """Build the domain objects of a run, call its solver, return its dataset.
+
+    Parameters
+    ----------
+    study : Study
+    run : str
+        Name of one of its runs.
+    progress : callable, optional
+        Called with steps done and steps in all.
+    """
+    table = study.runs[run]
+    if isinstance(table, SurfaceRun):
+        return _surface(study, run, table, progress)
+    return _point(study, run, table, progress)
+
+
+def _point(study: Study, run: str, table: PointRun, progress: Progress | None) -> xr.Dataset:
+    from contactstudy.solvers.point import point_contact
+
+    track = build.track(study)
+    return point_contact(
+        build.solid_track(study, track) if table.rail == "solid" else track,
+        build.vehicle(study),
+        irregularity_of(study, table.irregularity == "smooth", table.direction),
+        build.journey(study, run),
+        rail_theory="timoshenko" if table.rail == "timoshenko" else "euler",
+        elements_per_bay=table.elements_per_bay,
+        local_compliance=table.local_compliance,
+        law=build.contact_law(study, table),
+        direction=table.direction,
+        integrator=build.integrator(table),
+        progress=progress,
+    )
+
+
+def _surface(study: Study, run: str, table: SurfaceRun, progress: Progress | None) -> xr.Dataset:
+    raise NotImplementedError
+
+
+def peak_memory_mb() -> float:
+    """Peak resident memory of this process so far, in MB (1e6 bytes); nan where unknown."""
+    try:
+        import resource
+    except ImportError:  # not a POSIX system
+        return float("nan")
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    return float(peak * (1 if sys.platform == "darwin" else 1024) / 1e6)

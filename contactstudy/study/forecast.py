@@ -1,0 +1,126 @@
+"""What a study will need, without running it: sizes, steps and the expected time."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from rich.console import Console
+from rich.table import Table
+
+from contactstudy.solids.cache import entry_path
+from contactstudy.study import build
+from contactstudy.study.loading import load_study
+from contactstudy.study.roughness import describe
+from contactstudy.study.schema import PointRun, Study
+from contactstudy.track.beam import BeamTrack
+from contactstudy.track.model import DiscreteSupports, Track
+
+# Rough costs on a core of 2020 or later, measured with the shipped studies; for a forecast only.
+START = 4.0  # s, a process with its imports
+CONDENSATION = 30.0  # s, of a rail cell at 2 mm that is not in the cache
+POINT_STEP, POINT_STEP_PER_DOF = 20e-6, 0.05e-6  # s
+SOLID_STEP, SOLID_STEP_PER_DOF = 300e-6, 0.2e-6  # s
+
+
+@dataclass(frozen=True)
+class Forecast:
+    """Size of a run and the seconds it will take, about."""
+
+    dofs: int
+    steps: int
+    seconds: float
+
+
+def forecast(study: Study, run: str, track: Track) -> Forecast:
+    """Forecast of one run of a study on its `track`."""
+    table = study.runs[run]
+    steps = build.journey(study, run).n_steps
+    vehicle = build.vehicle(study).n_dofs
+    if isinstance(table, PointRun) and not table.needs_solid:
+        beam = BeamTrack(
+            track,
+            "timoshenko" if table.rail == "timoshenko" else "euler",
+            table.elements_per_bay,
+            direction=table.direction,
+        )
+        dofs = beam.n_dofs + vehicle
+        return Forecast(dofs, steps, START + steps * (POINT_STEP + POINT_STEP_PER_DOF * dofs))
+    dofs = solid_dofs(study, track) + vehicle
+    setup = 0.0 if entry_path(build.recipe(study)).exists() else CONDENSATION
+    seconds = START + setup + steps * (SOLID_STEP + SOLID_STEP_PER_DOF * dofs)
+    return Forecast(dofs, steps, seconds)
+
+
+def solid_dofs(study: Study, track: Track) -> int:
+    """Number of dofs of the chain of cells on its supports, without condensing a cell."""
+    solid = study.solid
+    cells = round(track.length / solid.cell_length)
+    held = {"clamped": 2 * solid.interface_modes, "pinned": 4, "free": 0}[track.ends]
+    sleepers = track.n_bays + 1 if isinstance(track.support, DiscreteSupports) else 0
+    planes = (cells + 1) * solid.interface_modes
+    return planes + cells * solid.internal_modes + sleepers - held
+
+
+def print_check(study: Study, console: Console) -> None:
+    """Print the resolved values of a study and what its runs will need.
+
+    Raises
+    ------
+    InputError
+        When a measured file or a companion's study file cannot be used.
+    """
+    described = describe(study)
+    for companion in study.companions:
+        load_study(companion)
+    track = build.track(study)
+    console.print(f"[bold]{study.title}[/bold] ({study.name})")
+    if study.description:
+        console.print(" ".join(study.description.split()), markup=False)
+    for warning in described.warnings:
+        console.print(f"warning: {warning}", markup=False, soft_wrap=True)
+    units = study.units()
+    values = Table("key", "value", "SI unit", show_header=True)
+    for key, value in _flat(study.config()):
+        values.add_row(key, _text(value), units.get(key, ""))
+    console.print(values)
+    if study.runs:
+        load = float(build.vehicle(study).static_loads[0])
+        hertz = build.hertz(study)
+        console.print(
+            f"static wheel load {load / 1e3:.2f} kN; "
+            f"Hertz: approach {hertz.approach * 1e6:.1f} µm, "
+            f"tangent stiffness {hertz.tangent_stiffness / 1e9:.3f} GN/m",
+            soft_wrap=True,
+        )
+    sizes = Table("run", "dofs", "steps", "expected time (s)")
+    total = 0.0
+    for name in study.runs:
+        found = forecast(study, name, track)
+        total += found.seconds
+        sizes.add_row(name, str(found.dofs), str(found.steps), f"{found.seconds:.0f}")
+    if study.runs:
+        console.print(sizes)
+        console.print(
+            f"about {total / 2:.0f} s with two runs at a time, figures and report not counted"
+        )
+    else:
+        console.print("no runs: figures of the irregularity only")
+
+
+def _flat(tables: dict[str, Any], path: str = "") -> Iterator[tuple[str, Any]]:
+    for key, value in tables.items():
+        full = f"{path}.{key}" if path else key
+        if isinstance(value, dict):
+            yield from _flat(value, full)
+        else:
+            yield full, value
+
+
+def _text(value: Any) -> str:
+    if isinstance(value, float):
+        return f"{value:.10g}"
+    if isinstance(value, list):
+        return ", ".join(_text(item) for item in value)
+    return str(value)

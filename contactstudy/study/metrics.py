@@ -1,0 +1,151 @@
+"""What goes into ``metrics.json``: sizes, costs, and error norms of each run.
+
+::
+
+    runs.<name>:  dofs, steps, dt [s], seconds {setup, stepping}, peak_memory_mb
+    reference:    name of the run that all others are compared with
+    comparisons.<name>.<signal>:
+        relative_l2, relative_l2_dynamic, linf, rms, correlation,
+        sprague_geers {M, P, C}, sprague_geers_dynamic {M, P, C},
+        third_octave {nominal centre in Hz: level less the reference's in dB}
+
+Both signals are compared at equal wheel positions behind the fade-in; `contactstudy.errors`
+defines the norms. ``linf`` and ``rms`` are in the signal's SI unit. The dynamic part is what is
+left of a signal when its own value in the static start is taken off. A norm that does not exist,
+because a signal is zero or constant, is null.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from contactstudy import errors
+from contactstudy.irregularity.estimate import third_octave_levels
+
+SIGNALS = ("contact_force", "wheel_displacement", "wheel_acceleration", "rail_displacement")
+_SHORTEST_RECORD = 8  # samples, for a spectral estimate
+
+
+def study_metrics(
+    runs: Mapping[str, xr.Dataset],
+    costs: Mapping[str, Mapping[str, Any]],
+    reference: str | None,
+    compare_from: float,
+) -> dict[str, Any]:
+    """Content of ``metrics.json``.
+
+    Parameters
+    ----------
+    runs : mapping of str to xarray.Dataset
+        The finished runs.
+    costs : mapping of str to mapping
+        ``seconds`` and ``peak_memory_mb`` of each run.
+    reference : str or None
+        Run that the others are compared with, if it is among `runs`.
+    compare_from : float
+        First wheel position of the comparison in m: the end of the fade-in.
+    """
+    result: dict[str, Any] = {
+        "runs": {
+            name: {
+                "dofs": int(run.attrs["dofs"]),
+                "steps": int(run.attrs["steps"]),
+                "dt": float(run.attrs["dt"]),
+                **costs[name],
+            }
+            for name, run in runs.items()
+        },
+        "reference": reference,
+        "comparisons": {},
+    }
+    if reference is not None and reference in runs:
+        result["compared_from_m"] = compare_from
+        result["comparisons"] = {
+            name: compare_runs(run, runs[reference], compare_from)
+            for name, run in runs.items()
+            if name != reference
+        }
+    return result
+
+
+def compare_runs(run: xr.Dataset, reference: xr.Dataset, start: float) -> dict[str, Any]:
+    """Norms of each signal of `run` against `reference`, from the position `start` [m] on."""
+    return {
+        name: compare_signals(run, reference, name, start)
+        for name in SIGNALS
+        if name in run and name in reference
+    }
+
+
+def compare_signals(run: xr.Dataset, reference: xr.Dataset, name: str, start: float) -> Any:
+    """Norms of one signal; see the module's text for the keys."""
+    x_run, x_reference = _position(run), _position(reference)
+    x = errors.common_positions(x_run, x_reference, start)
+    a_all, b_all = run[name].values, reference[name].values
+    a, b = errors.at_positions(a_all, x_run, x), errors.at_positions(b_all, x_reference, x)
+    a_static, b_static = a_all[..., 0], b_all[..., 0]
+    dynamic = errors.dynamic_part(a, a_static), errors.dynamic_part(b, b_static)
+    return {
+        "relative_l2": _number(errors.relative_l2(a, b, x)),
+        "relative_l2_dynamic": _number(errors.relative_l2(*dynamic, x)),
+        "linf": _number(errors.linf(a, b)),
+        "rms": _number(errors.rms(a, b, x)),
+        "correlation": _number(errors.correlation(a, b, x)),
+        "sprague_geers": _sprague_geers(a, b, x),
+        "sprague_geers_dynamic": _sprague_geers(*dynamic, x),
+        "third_octave": level_differences(*dynamic, x, _speed(reference)),
+    }
+
+
+def level_differences(
+    a: NDArray[np.float64], b: NDArray[np.float64], x: NDArray[np.float64], speed: float
+) -> dict[str, float]:
+    """Third-octave levels of `a` less those of `b`: nominal centre in Hz -> dB.
+
+    Bands as in `contactstudy.irregularity.third_octave_levels`, of the whole record in time;
+    signals of several wheels (nw, n) are averaged in mean square. Bands in which one of the two
+    is empty are left out.
+    """
+    spacing = float(x[-1] - x[0]) / (len(x) - 1) / speed
+    if len(x) < _SHORTEST_RECORD:
+        return {}
+    pair = []
+    for signal in (np.atleast_2d(a), np.atleast_2d(b)):
+        levels = [third_octave_levels(one, spacing, reference=1.0) for one in signal]
+        pair.append(np.mean([level.mean_square for level in levels], axis=0))
+    nominal = levels[0].nominal
+    return {
+        f"{centre:g}": float(10.0 * np.log10(one / other))
+        for centre, one, other in zip(nominal, *pair, strict=True)
+        if one > 0.0 and other > 0.0
+    }
+
+
+def _sprague_geers(a: Any, b: Any, x: NDArray[np.float64]) -> dict[str, float | None]:
+    found = errors.sprague_geers(a, b, x)
+    return {
+        "M": _number(found.magnitude),
+        "P": _number(found.phase),
+        "C": _number(found.combined),
+    }
+
+
+def _position(run: xr.Dataset) -> NDArray[np.float64]:
+    """Position (n,) of the leading wheel in m."""
+    position = run["position"]
+    return np.asarray((position.isel(wheel=0) if "wheel" in position.dims else position).values)
+
+
+def _speed(run: xr.Dataset) -> float:
+    x, t = _position(run), run["time"].values
+    return float((x[-1] - x[0]) / (t[-1] - t[0]))
+
+
+def _number(value: float) -> float | None:
+    return float(value) if math.isfinite(value) else None

@@ -1,0 +1,171 @@
+"""The irregularity of a study: the profile that runs use, and what Fig. 1 shows of it."""
+
+from __future__ import annotations
+
+import warnings
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from contactstudy import irregularity as irr
+from contactstudy.study.results import IrregularityInfo, Level, Spectrum
+from contactstudy.study.schema import IrregularityTable, Study
+from contactstudy.study.store import file_digest
+
+PROFILE_STEP = 0.01  # m, of the profile drawn in Fig. 1b
+CURVE_POINTS = 400  # of a spectrum's formula
+
+
+@dataclass(frozen=True)
+class Described:
+    """What is known of a study's irregularity before anything runs.
+
+    Attributes
+    ----------
+    info : IrregularityInfo
+    files : dict of str to str
+        Name of each measured file -> SHA-256 of its content.
+    warnings : tuple of str
+        For the user, e.g. that the profile repeats itself.
+    """
+
+    info: IrregularityInfo
+    files: dict[str, str]
+    warnings: tuple[str, ...]
+
+
+def spectrum_of(table: IrregularityTable) -> irr.Spectrum:
+    """The formula a study generates from; Table 1's where it generates nothing."""
+    if table.spectrum == "paper":
+        return irr.paper_spectrum(table.roughness, table.omega_1, table.omega_2)
+    if table.spectrum in ("measured", "smooth"):
+        return irr.paper_spectrum()
+    return irr.spectrum(table.spectrum)
+
+
+def irregularity_of(study: Study, smooth: bool = False, direction: str = "Z") -> irr.Profile:
+    """The profile of a study's runs.
+
+    Parameters
+    ----------
+    study : Study
+    smooth : bool
+        Whether the run asks for a smooth rail.
+    direction : {"Z", "Y"}
+        Vertical, or the seed's independent transverse profile.
+
+    Raises
+    ------
+    InputError
+        When a measured file cannot be used or does not cover the journey.
+    """
+    table = study.irregularity
+    if smooth or table.spectrum == "smooth":
+        return irr.SmoothRail()
+    if table.spectrum == "measured":
+        required = (study.journey.start, study.journey.end) if study.runs else None
+        return _measured(table, table.wavelengths, required)
+    return irr.sample_profile(
+        spectrum_of(table),
+        table.seed,
+        table.terms,
+        table.band,
+        table.jitter,
+        "vertical" if direction == "Z" else "transverse",
+    )
+
+
+def _measured(
+    table: IrregularityTable,
+    wavelengths: tuple[float, float] | None,
+    required: tuple[float, float] | None = None,
+) -> irr.MeasuredProfile:
+    overlay = table.spectrum != "measured"
+    return irr.measured_profile(
+        table.measured_file,
+        table.level_column,
+        table.level_unit,
+        x_column=table.x_column,
+        origin=0.0 if overlay else table.origin,
+        wavelengths=wavelengths,
+        interpolation=table.interpolation,
+        required=required,
+    )
+
+
+def describe(study: Study) -> Described:
+    """Read the study's irregularity and sample what Fig. 1 shows.
+
+    Raises
+    ------
+    InputError
+        When a measured file cannot be used or does not cover the journey.
+    """
+    table = study.irregularity
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        profile = irregularity_of(study)
+        irr.check_repeat(profile, study.journey.end - study.journey.start)
+    files, measured, measured_profile = {}, None, None
+    if table.measured_file:
+        path = Path(table.measured_file)
+        measured, measured_profile = _measured_info(table, path)
+        files[path.name] = file_digest(path)
+    generated = table.spectrum not in ("measured", "smooth")
+    info = IrregularityInfo(
+        spectrum=_curve(table) if table.spectrum != "smooth" else None,
+        estimate=_estimate(table, profile) if generated else None,
+        profile=_sampled(study, profile) if table.spectrum != "smooth" else None,
+        measured=measured,
+        measured_profile=measured_profile,
+    )
+    return Described(info, files, tuple(str(w.message) for w in caught))
+
+
+def _curve(table: IrregularityTable) -> Spectrum:
+    omega = np.geomspace(*table.band, CURVE_POINTS)
+    formula = spectrum_of(table)
+    table_1 = formula.parameters == irr.paper_spectrum().parameters
+    label = "eq. (3), Table 1" if table_1 else formula.name
+    return Spectrum(label, omega, formula(omega), table.band)
+
+
+def _estimate(table: IrregularityTable, profile: irr.Profile) -> Spectrum:
+    """Welch's estimate over two repeat lengths of the profile, in the band of its terms.
+
+    The 36 m of the track are half a wavelength of the longest term; a profile is a function of
+    X, so a long stretch of the same one can be had.
+    """
+    low, high = table.band
+    step = np.pi / (2.5 * high)
+    length = max(4.0 * np.pi * table.terms / (high - low), 400 * step)
+    values = profile(np.arange(0.0, length, step))
+    estimate = irr.spectral_estimate(values, step)
+    inside = (estimate.wavenumber >= low) & (estimate.wavenumber <= high)
+    label = f"generated profile, seed {table.seed}"
+    return Spectrum(label, estimate.wavenumber[inside], estimate.density[inside], table.band)
+
+
+def _sampled(study: Study, profile: irr.Profile) -> Level:
+    low, high = profile.domain
+    start, end = max(low, 0.0), min(high, study.track.length)
+    position = np.linspace(start, end, max(2, round((end - start) / PROFILE_STEP) + 1))
+    table = study.irregularity
+    label = "measured profile"
+    if table.spectrum != "measured":
+        label = f"{table.spectrum.replace('_', ' ')}, seed {table.seed}"
+    return Level(label, position, profile(position))
+
+
+def _measured_info(table: IrregularityTable, path: Path) -> tuple[Spectrum, Level]:
+    """Spectrum of the level as measured, with its valid band, and the band-passed level."""
+    raw, passed = _measured(table, None), _measured(table, table.wavelengths)
+    step = float(np.median(np.diff(raw.positions)))
+    even = np.arange(raw.domain[0], raw.domain[1], step)
+    estimate = irr.spectral_estimate(raw(even), step)
+    band = 2.0 * np.pi / table.wavelengths[1], 2.0 * np.pi / table.wavelengths[0]
+    label = f"measured level ({path.name}, {table.level_column})"
+    positive = estimate.wavenumber > 0.0
+    spectrum = Spectrum(label, estimate.wavenumber[positive], estimate.density[positive], band)
+    return spectrum, Level(label, passed.positions, passed.levels)

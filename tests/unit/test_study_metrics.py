@@ -1,0 +1,95 @@
+"""metrics.json of two made-up runs, against norms known in closed form."""
+
+import json
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from contactstudy.study.metrics import level_differences, study_metrics
+
+SPEED = 50.0
+STATIC = 60e3
+
+
+def run(dt: float, gain: float = 1.0, end: float = 30.0) -> xr.Dataset:
+    """Force 60 kN + gain 5 kN sin^2-started sine of 1 m wavelength from X = 6 m on."""
+    time = np.arange(round((end - 6.0) / SPEED / dt) + 1) * dt
+    x = 6.0 + SPEED * time
+    wave = np.sin(2 * np.pi * x)
+    signals = {
+        "contact_force": STATIC + gain * 5e3 * wave,
+        "wheel_displacement": -1e-3 + gain * 2e-4 * wave,
+        "wheel_acceleration": 0.0 * wave,
+    }
+    data = {name: ("time", values) for name, values in signals.items()}
+    coords = {"time": time, "position": ("time", x)}
+    return xr.Dataset(data, coords, {"dofs": 7, "steps": len(time) - 1, "dt": dt})
+
+
+COST = {"seconds": {"setup": 0.1, "stepping": 0.2}, "peak_memory_mb": 99.0}
+
+
+def metrics(**runs: xr.Dataset) -> dict:
+    return study_metrics(runs, dict.fromkeys(runs, COST), "surface", compare_from=9.0)
+
+
+def test_layout_and_json():
+    found = metrics(surface=run(1e-4), point=run(1e-4, 1.05))
+    assert found["runs"]["point"] == {"dofs": 7, "steps": 4800, "dt": 1e-4, **COST}
+    assert list(found["comparisons"]) == ["point"]
+    assert set(found["comparisons"]["point"]["contact_force"]) == {
+        "relative_l2", "relative_l2_dynamic", "linf", "rms", "correlation",
+        "sprague_geers", "sprague_geers_dynamic", "third_octave",
+    }  # fmt: skip
+    json.dumps(found, allow_nan=False)
+
+
+def test_norms_of_a_gain_of_five_percent():
+    """From 9 to 30 m are 21 whole waves: the mean of sin^2 is 1/2."""
+    force = metrics(surface=run(1e-4), point=run(1e-4, 1.05))["comparisons"]["point"][
+        "contact_force"
+    ]
+    rms = 0.05 * 5e3 / np.sqrt(2)
+    assert force["rms"] == pytest.approx(rms, rel=1e-6)
+    assert force["relative_l2"] == pytest.approx(rms / np.sqrt(STATIC**2 + 12.5e6), rel=1e-6)
+    assert force["relative_l2_dynamic"] == pytest.approx(0.05, rel=1e-6)
+    assert force["linf"] == pytest.approx(250.0, rel=1e-6)
+    assert force["correlation"] == pytest.approx(1.0)
+    assert force["sprague_geers_dynamic"]["M"] == pytest.approx(0.05)
+    assert force["sprague_geers_dynamic"]["P"] == pytest.approx(0.0, abs=1e-7)
+    level = force["third_octave"]["50"]  # 1 m at 50 m/s
+    assert level == pytest.approx(20 * np.log10(1.05), abs=1e-6)
+
+
+def test_different_time_steps_are_compared_at_equal_positions():
+    """4e-5 and 1e-4 s share every fifth of 2 m/s positions only; the signal is the same."""
+    found = metrics(surface=run(4e-5), point=run(1e-4))["comparisons"]["point"]
+    assert found["contact_force"]["relative_l2_dynamic"] < 1e-8
+    assert found["wheel_displacement"]["linf"] < 1e-11
+
+
+def test_a_shorter_run_is_compared_where_both_are():
+    found = metrics(surface=run(1e-4), point=run(1e-4, 1.05, end=20.0))["comparisons"]["point"]
+    assert found["contact_force"]["relative_l2_dynamic"] == pytest.approx(0.05, rel=1e-6)
+
+
+def test_what_does_not_exist_is_null():
+    found = metrics(surface=run(1e-4), point=run(1e-4))["comparisons"]["point"]
+    assert found["wheel_acceleration"]["relative_l2"] is None
+    assert found["wheel_acceleration"]["correlation"] is None
+    assert found["wheel_acceleration"]["linf"] == 0.0
+    assert found["wheel_acceleration"]["third_octave"] == {}
+
+
+def test_level_differences_of_two_tones():
+    x = np.linspace(0, 20, 20001)
+    one, other = np.sin(2 * np.pi * x), 0.1 * np.sin(2 * np.pi * 4 * x)
+    levels = level_differences(2 * one + other, one + other, x, SPEED)
+    assert levels["50"] == pytest.approx(20 * np.log10(2), abs=0.01)
+    assert levels["200"] == pytest.approx(0.0, abs=0.01)
+
+
+def test_nothing_to_compare():
+    found = study_metrics({"point": run(1e-4)}, {"point": COST}, None, 9.0)
+    assert found["comparisons"] == {} and found["reference"] is None
