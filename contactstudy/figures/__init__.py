@@ -1,0 +1,40 @@
+"""Figures of a study: one module a family, one style."""
+
+from pathlib import Path
+
+from contactstudy.figures import bands, histories, irregularity, passing, patch, press, section
+from contactstudy.figures.drawing import Drawing
+from contactstudy.figures.style import drawing, save
+from contactstudy.study.results import StudyResults
+
+_FAMILIES = (irregularity, histories, bands, patch, section, press, passing)
+
+__all__ = ["Drawing", "drawings", "write_figures"]
+
+
+def drawings(results: StudyResults) -> list[Drawing]:
+    """All figures that these results can fill, in the order of the report."""
+    return [made for family in _FAMILIES for made in family.drawings(results)]
+
+
+def write_figures(results: StudyResults, out_dir: Path) -> list[Path]:
+    """Draw all figures into out_dir/figures, each as PDF and as PNG.
+
+    Parameters
+    ----------
+    results : StudyResults
+        A finished study; what it does not carry is left out.
+    out_dir : Path
+        Output directory of the study.
+
+    Returns
+    -------
+    list of Path
+        The files written.
+    """
+    folder = Path(out_dir) / "figures"
+    written: list[Path] = []
+    with drawing():
+        for made in drawings(results):
+            written += save(made.draw(), folder, made.name)
+    return written

@@ -1,0 +1,138 @@
+"""Third-octave spectra of the contact force: levels and their differences from the reference."""
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import FixedLocator, NullFormatter, NullLocator
+
+from contactstudy.figures.drawing import (
+    Drawing,
+    compared,
+    exact,
+    fade_end,
+    has_signal,
+    label,
+    number,
+    speed,
+    styles,
+    values,
+)
+from contactstudy.figures.style import BLACK, figure_legend, new_figure
+from contactstudy.irregularity.estimate import ThirdOctaves, third_octave_levels
+from contactstudy.study.results import StudyResults
+
+HIGHEST = 2000.0  # Hz
+SHOWN_RANGE = 80.0  # dB below the highest level
+SIGNAL = "contact_force"
+
+
+def drawings(results: StudyResults) -> list[Drawing]:
+    """One figure for a study with a reference whose runs carry the contact force."""
+    if results.reference is None or len(results.runs) < 2:
+        return []
+    if not all(has_signal(run, SIGNAL) for run in results.runs.values()):
+        return []
+    pairs = level_pairs(results)
+    if not pairs:
+        return []
+    return [Drawing("third_octaves", _caption(results, pairs), lambda: _draw(results, pairs))]
+
+
+def level_pairs(results: StudyResults) -> dict[str, tuple[ThirdOctaves, ThirdOctaves]]:
+    """Run -> levels of the reference and of the run, of the forces' dynamic parts, re 1 N.
+
+    Both are taken at the positions that the two runs have in common behind the fade-in, over
+    the whole record in one segment.
+    """
+    reference = results.runs[str(results.reference)]
+    v = speed(reference)
+    pairs = {}
+    for name, run in results.runs.items():
+        if name == results.reference:
+            continue
+        x, ours, theirs = compared(results, name, SIGNAL, fade_end(results))
+        spacing = float(x[-1] - x[0]) / (len(x) - 1) / v
+        band = (1.0 / (spacing * len(x)), min(HIGHEST, 0.45 / spacing))
+        levels = [
+            third_octave_levels(signal - static, spacing, 1.0, band=band)
+            for signal, static in (
+                (ours, values(reference, SIGNAL)[0]),
+                (theirs, values(run, SIGNAL)[0]),
+            )
+        ]
+        if levels[0].centre.size:
+            pairs[name] = (levels[0], levels[1])
+    return pairs
+
+
+def _draw(results: StudyResults, pairs: dict[str, tuple[ThirdOctaves, ThirdOctaves]]) -> Figure:
+    figure = new_figure(4.05)
+    top, below = figure.subplots(2, 1, sharex=True, height_ratios=[1.2, 1.0])
+    below.axhline(0.0, color=BLACK, lw=0.5)
+    first = next(iter(pairs.values()))[0]
+    named = styles(results)
+    style = named[str(results.reference)]
+    text = f"{label(str(results.reference))} (reference)"
+    top.plot(first.centre, first.level, marker=style.marker, ms=3, label=text, **style.line)
+    for name, (ours, theirs) in pairs.items():
+        style = named[name]
+        marks = {"marker": style.marker, "ms": 3, **style.line}
+        top.plot(theirs.centre, theirs.level, label=label(name), **marks)
+        with np.errstate(invalid="ignore"):
+            difference = theirs.level - ours.level
+        below.plot(theirs.centre, difference, **marks)
+    highest = max(float(t.level.max()) for pair in pairs.values() for t in pair)
+    lowest = min(
+        float(t.level[np.isfinite(t.level)].min()) for pair in pairs.values() for t in pair
+    )
+    top.set_ylim(max(lowest, highest - SHOWN_RANGE) - 3, highest + 5)
+    top.set_ylabel("Force level (dB re 1 N)")
+    below.set_ylabel("Difference (dB)")
+    below.set_xlabel("Third-octave band centre (Hz)")
+    _octave_ticks(below, first)
+    second = top.secondary_xaxis("top")
+    _wavelength_ticks(second, first, speed(results.runs[str(results.reference)]))
+    figure.align_ylabels()
+    figure_legend(figure, top)
+    return figure
+
+
+def _octave_ticks(axes: Axes, levels: ThirdOctaves) -> None:
+    """Every third band labelled with its nominal centre."""
+    axes.set_xscale("log")
+    chosen = slice((len(levels.centre) - 1) % 3, None, 3)
+    axes.xaxis.set_major_locator(FixedLocator(list(levels.centre[chosen])))
+    axes.xaxis.set_minor_locator(NullLocator())
+    axes.xaxis.set_minor_formatter(NullFormatter())
+    axes.set_xticklabels([f"{f:g}" for f in levels.nominal[chosen]])
+
+
+def _wavelength_ticks(axes: Axes, levels: ThirdOctaves, v: float) -> None:
+    """Wavelengths at the same bands, for the speed `v` in m/s."""
+    chosen = slice((len(levels.centre) - 1) % 3, None, 3)
+    axes.xaxis.set_major_locator(FixedLocator(list(levels.centre[chosen])))
+    axes.xaxis.set_minor_locator(NullLocator())
+    axes.set_xticklabels([f"{v / f:.2g}" for f in levels.centre[chosen]])
+    axes.set_xlabel("Wavelength (m)")
+
+
+def _caption(results: StudyResults, pairs: dict[str, tuple[ThirdOctaves, ThirdOctaves]]) -> str:
+    v = speed(results.runs[str(results.reference)])
+    text = (
+        "Third-octave levels of the dynamic part of the contact force after the fade-in (top) and "
+        f"their differences from {label(str(results.reference))} (bottom), at "
+        f"{exact(round(v * 3.6, 3))} km/h."
+    )
+    parts = []
+    for name, (ours, theirs) in pairs.items():
+        # Bands that carry nothing say nothing about the models.
+        heard = ours.level > ours.level.max() - SHOWN_RANGE / 2
+        difference = theirs.level[heard] - ours.level[heard]
+        k = int(np.argmax(np.abs(difference)))
+        parts.append(
+            f"{label(name)} {number(difference[k], 2)} dB at {ours.nominal[heard][k]:g} Hz"
+        )
+    return (
+        f"{text} Largest differences in bands within {SHOWN_RANGE / 2:g} dB of the highest: "
+        f"{', '.join(parts)}."
+    )

@@ -1,0 +1,230 @@
+"""The contact patch: pressure at an instant with Hertz's ellipse; area and peak over the run."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Ellipse
+
+from contactstudy.figures.drawing import (
+    Drawing,
+    FloatArray,
+    exact,
+    fade_end,
+    has_signal,
+    label,
+    number,
+    position,
+    styles,
+    values,
+)
+from contactstudy.figures.hertz_ellipse import HertzPatch, hertz_patch
+from contactstudy.figures.style import BLACK, SHADE, VERMILION, new_figure
+from contactstudy.study.results import StudyResults
+
+
+@dataclass(frozen=True)
+class Patch:
+    """Pressure of one instant on the whole patch (both halves when the model has only one).
+
+    Attributes
+    ----------
+    x, y : (n,) array
+        Points relative to the wheel's contact point, m.
+    pressure : (n,) array
+        Pa.
+    position : float
+        Position of the wheel, m.
+    force : float
+        Contact force at that instant, N.
+    """
+
+    x: FloatArray
+    y: FloatArray
+    pressure: FloatArray
+    position: float
+    force: float
+
+
+def drawings(results: StudyResults) -> list[Drawing]:
+    """Pressure map and patch history of each run that has them."""
+    made = []
+    for name, run in results.runs.items():
+        several = sum("pressure" in r for r in results.runs.values()) > 1
+        suffix = f"_{name}" if several else ""
+        if "pressure" in run and {"instant", "point"} <= set(run["pressure"].dims):
+            patch = patch_of(run)
+            if patch is not None:
+                hertz = hertz_patch(results, patch.force)
+                made.append(
+                    Drawing(
+                        f"patch_pressure{suffix}",
+                        _map_caption(name, patch, hertz),
+                        lambda patch=patch, hertz=hertz: _map(patch, hertz),  # type: ignore[misc]
+                    )
+                )
+    if any(has_signal(r, "contact_area") for r in results.runs.values()):
+        made.append(Drawing("patch_history", _history_caption(results), lambda: _history(results)))
+    return made
+
+
+def patch_of(run: xr.Dataset) -> Patch | None:
+    """Pressure at the instant with the largest force among those stored; None if never in touch."""
+    at = np.asarray(run["instant_position"].values, dtype=float)
+    force = np.interp(at, position(run), values(run, "contact_force"))
+    pressure = np.asarray(run["pressure"].transpose("instant", "point").values, dtype=float)
+    k = int(np.argmax(np.where(np.nanmax(pressure, axis=1) > 0, force, -np.inf)))
+    if not np.nanmax(pressure[k]) > 0:
+        return None
+    x, y = (_of_instant(run[name], k) for name in ("point_x", "point_y"))
+    p = np.nan_to_num(pressure[k])
+    known = np.isfinite(x) & np.isfinite(y)
+    x, y, p = x[known], y[known], p[known]
+    if abs(float(np.mean(x))) > 0.1:  # positions along the track, not relative to the wheel
+        x = x - at[k]
+    if y.min() >= -1e-9:  # half model: the other half is its mirror image
+        inner = y > 1e-9
+        x, y, p = (
+            np.concatenate([x, x[inner]]),
+            np.concatenate([y, -y[inner]]),
+            np.concatenate([p, p[inner]]),
+        )
+    return Patch(x, y, p, float(at[k]), float(force[k]))
+
+
+def _of_instant(data: xr.DataArray, k: int) -> FloatArray:
+    if "instant" in data.dims:
+        data = data.isel(instant=k)
+    return np.asarray(data.values, dtype=float)
+
+
+def _map(patch: Patch, hertz: HertzPatch | None) -> Figure:
+    figure = new_figure(3.0)
+    left, right = figure.subplots(1, 2, width_ratios=[1.35, 1.0])
+    x, y, p = patch.x * 1e3, patch.y * 1e3, patch.pressure * 1e-6
+    half = 1.35 * max(np.abs(x[p > 0]).max(), np.abs(y[p > 0]).max())
+    if hertz is not None:
+        half = max(half, 1.25e3 * max(hertz.along, hertz.across))
+    image = _field(left, x, y, p)
+    if hertz is not None:
+        size = (2e3 * hertz.along, 2e3 * hertz.across)
+        left.add_patch(Ellipse((0, 0), *size, fill=False, ec=VERMILION, lw=1.4, ls="--"))
+        proxy = Line2D([], [], color=VERMILION, lw=1.4, ls="--", label="Hertz's ellipse")
+        left.legend(handles=[proxy], loc="upper right")
+    left.set_xlim(-half, half)
+    left.set_ylim(-half, half)
+    left.set_aspect("equal")
+    left.grid(False)
+    left.set_xlabel("Along the rail (mm)")
+    left.set_ylabel("Across the rail (mm)")
+    figure.colorbar(image, ax=left, label="Pressure (MPa)", shrink=0.9)
+    _cuts(right, x, y, p, hertz, half)
+    return figure
+
+
+def _field(axes: Axes, x: FloatArray, y: FloatArray, p: FloatArray):  # type: ignore[no-untyped-def]
+    """Cells about the nodes where these form a grid, else interpolated between them."""
+    gx, ix = np.unique(np.round(x, 6), return_inverse=True)
+    gy, iy = np.unique(np.round(y, 6), return_inverse=True)
+    if gx.size * gy.size == x.size:
+        grid = np.full((gy.size, gx.size), np.nan)
+        grid[iy, ix] = np.where(p > 0, p, np.nan)  # no colour where nothing touches
+        mesh = axes.pcolormesh(gx, gy, grid, cmap="cividis_r", vmin=0, shading="nearest")
+        return mesh
+    levels = np.linspace(0, p.max(), 13)
+    return axes.tricontourf(x, y, p, levels=levels, cmap="cividis_r")
+
+
+def _cuts(
+    axes: Axes, x: FloatArray, y: FloatArray, p: FloatArray, hertz: HertzPatch | None, half: float
+) -> None:
+    for u, v, marker, fill, text in (
+        (x, y, "o", BLACK, "along, y = 0"),
+        (y, x, "s", "none", "across"),
+    ):
+        # The row of nodes nearest to the point of highest pressure.
+        on = np.isclose(v, v[np.argmin(np.abs(v))], atol=1e-6)
+        order = np.argsort(u[on])
+        axes.plot(
+            u[on][order], p[on][order], marker=marker, ms=3.5, ls="none", mec=BLACK, mfc=fill,
+            mew=0.7, label=text,
+        )  # fmt: skip
+    if hertz is not None:
+        for semi, dashes, text in (
+            (hertz.along * 1e3, "-", "Hertz, along"),
+            (hertz.across * 1e3, "--", "Hertz, across"),
+        ):
+            s = np.linspace(-semi, semi, 201)
+            curve = hertz.peak_pressure * 1e-6 * np.sqrt(np.maximum(0.0, 1 - (s / semi) ** 2))
+            axes.plot(s, curve, color=VERMILION, ls=dashes, lw=1.0, label=text)
+    axes.set_xlim(-half, half)
+    axes.set_ylim(bottom=0)
+    top = axes.get_ylim()[1]
+    axes.set_ylim(0, 1.45 * top)
+    axes.set_xlabel("Distance from the centre (mm)")
+    axes.set_ylabel("Pressure (MPa)")
+    axes.legend(loc="upper center", ncols=2, columnspacing=1.0, handlelength=2.0)
+
+
+def _map_caption(name: str, patch: Patch, hertz: HertzPatch | None) -> str:
+    peak = patch.pressure.max()
+    text = (
+        f"Contact pressure of the run {label(name)} at X = {exact(patch.position)} m, where the "
+        f"force is {number(patch.force * 1e-3)} kN: map (left) and cuts through the centre "
+        f"(right). The highest nodal pressure is {number(peak * 1e-6)} MPa"
+    )
+    if hertz is None:
+        return text + "."
+    ratio = peak / hertz.peak_pressure - 1
+    side = "above" if ratio > 0 else "below"
+    return text + (
+        f", {number(abs(ratio) * 100, 2)} % {side} Hertz's "
+        f"{number(hertz.peak_pressure * 1e-6)} MPa for that force on the same radii "
+        f"({hertz.radii}), whose ellipse has semi-axes of "
+        f"{number(hertz.along * 1e3)} mm along and {number(hertz.across * 1e3)} mm across the rail."
+    )
+
+
+def _history(results: StudyResults) -> Figure:
+    figure = new_figure(3.4)
+    axes = figure.subplots(2, 1, sharex=True)
+    rows = (
+        ("contact_area", 1e6, "Contact area (mm²)"),
+        ("peak_pressure", 1e-6, "Peak pressure (MPa)"),
+    )
+    start = fade_end(results)
+    for ax, (name, scale, text) in zip(axes, rows, strict=True):
+        for run_name, style in styles(results).items():
+            run = results.runs[run_name]
+            if has_signal(run, name):
+                x = position(run)
+                ax.plot(x, values(run, name) * scale, label=label(run_name), **style.line)
+                if start > x[0]:
+                    ax.axvspan(x[0], start, color=SHADE, lw=0, zorder=0)
+        ax.set_ylabel(text)
+        ax.margins(x=0)
+    axes[1].set_xlabel("Position X of the wheel (m)")
+    if len(axes[0].lines) > 1:
+        axes[0].legend(loc="upper right")
+    figure.align_ylabels()
+    return figure
+
+
+def _history_caption(results: StudyResults) -> str:
+    text = "Contact area and highest nodal pressure along the run."
+    start = fade_end(results)
+    for name, run in results.runs.items():
+        if not (has_signal(run, "contact_area") and has_signal(run, "peak_pressure")):
+            continue
+        keep = position(run) >= start
+        area = values(run, "contact_area")[keep] * 1e6
+        peak = values(run, "peak_pressure")[keep] * 1e-6
+        text += (
+            f" After the fade-in the area of {label(name)} lies between {number(area.min())} and "
+            f"{number(area.max())} mm² (mean {number(area.mean())} mm²) and the peak pressure "
+            f"between {number(peak.min())} and {number(peak.max())} MPa."
+        )
+    return text

@@ -1,0 +1,167 @@
+"""The one style of all figures: size, fonts, colours, line styles, and how a figure is saved."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import matplotlib
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+# Width of the text block of the A4 report: figures are placed unscaled, so their fonts are
+# the size given here.
+TEXT_WIDTH = 6.3  # inch
+PNG_DPI = 160
+
+# Okabe and Ito's palette, told apart by the colour-blind (Okabe and Ito 2008, "Color universal
+# design"); the yellow is left out because thin yellow lines vanish on paper.
+BLACK = "#000000"
+VERMILION = "#D55E00"
+BLUE = "#0072B2"
+GREEN = "#009E73"
+PURPLE = "#CC79A7"
+ORANGE = "#E69F00"
+SKY = "#56B4E9"
+GREY = "#7F7F7F"
+SHADE = "#E6E6E6"
+
+_LINES: tuple[tuple[str, Any], ...] = (
+    (VERMILION, "-"),
+    (BLUE, (0, (5, 1.5))),
+    (GREEN, (0, (4, 1.5, 1, 1.5))),
+    (PURPLE, (0, (1.2, 1.2))),
+    (ORANGE, (0, (8, 2))),
+    (SKY, (0, (5, 1.5, 1, 1.5, 1, 1.5))),
+)
+_MARKERS = ("s", "^", "D", "v", "P", "X")
+_HATCHES = ("////", "\\\\\\\\", "....", "xxxx", "----", "++++")
+
+_RC: Any = {
+    "font.family": "STIXGeneral",
+    "mathtext.fontset": "stix",
+    "font.size": 9.0,
+    "axes.titlesize": 9.0,
+    "axes.labelsize": 9.0,
+    "xtick.labelsize": 8.0,
+    "ytick.labelsize": 8.0,
+    "legend.fontsize": 8.0,
+    "axes.linewidth": 0.6,
+    "axes.grid": True,
+    "axes.axisbelow": True,
+    "grid.color": "#D9D9D9",
+    "grid.linewidth": 0.4,
+    "lines.linewidth": 1.0,
+    "xtick.direction": "in",
+    "ytick.direction": "in",
+    "xtick.major.width": 0.6,
+    "ytick.major.width": 0.6,
+    "legend.frameon": False,
+    "legend.handlelength": 2.8,
+    "figure.dpi": 100,
+    "pdf.fonttype": 42,
+    "axes.unicode_minus": True,
+    "path.simplify": True,
+    "path.simplify_threshold": 0.2,
+}
+
+
+@dataclass(frozen=True)
+class LineStyle:
+    """How one run is drawn, the same in every figure.
+
+    Parameters
+    ----------
+    color : str
+        Colour, hexadecimal.
+    linestyle : str or tuple
+        Dash pattern as matplotlib takes it; tells runs apart without colour.
+    marker, hatch : str
+        The same for points and for bars.
+    width : float
+        Line width in points.
+    """
+
+    color: str
+    linestyle: Any
+    marker: str
+    hatch: str
+    width: float = 0.9
+
+    @property
+    def line(self) -> dict[str, Any]:
+        """Keyword arguments for a line."""
+        return {"color": self.color, "linestyle": self.linestyle, "linewidth": self.width}
+
+
+REFERENCE_STYLE = LineStyle(BLACK, "-", "o", "", 1.4)
+
+
+def run_styles(names: list[str], reference: str | None) -> dict[str, LineStyle]:
+    """Line styles of the runs by name: the reference black and solid, the others in turn.
+
+    Parameters
+    ----------
+    names : list of str
+        Run names in the order of the study.
+    reference : str or None
+        Name of the run that the others are compared with.
+    """
+    styles: dict[str, LineStyle] = {}
+    others = 0
+    for name in names:
+        if name == reference:
+            styles[name] = REFERENCE_STYLE
+            continue
+        color, dashes = _LINES[others % len(_LINES)]
+        # Beyond six runs the colours come round again, with the dashes shifted by one.
+        dashes = _LINES[(others + others // len(_LINES)) % len(_LINES)][1]
+        k = others % len(_MARKERS)
+        styles[name] = LineStyle(color, dashes, _MARKERS[k], _HATCHES[k])
+        others += 1
+    return styles
+
+
+@contextmanager
+def drawing() -> Iterator[None]:
+    """Context in which figures are made and saved: the style, and no user's matplotlibrc."""
+    with matplotlib.rc_context():
+        matplotlib.rcdefaults()
+        matplotlib.rcParams.update(_RC)
+        yield
+
+
+def new_figure(height: float, width: float = TEXT_WIDTH, equal_axes: bool = False) -> Figure:
+    """Return an empty figure of `width` x `height` inches on the Agg canvas, without pyplot.
+
+    With `equal_axes` the layout is one for axes whose scales are equal, which cannot fill it.
+    """
+    figure = Figure(figsize=(width, height), layout="compressed" if equal_axes else "constrained")
+    FigureCanvasAgg(figure)
+    return figure
+
+
+def save(figure: Figure, folder: Path, name: str) -> list[Path]:
+    """Write `figure` as folder/name.pdf and folder/name.png without dates, and return the paths.
+
+    Equal figures give equal bytes: no creation date, no program version in the files.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    # The layout is found once, not again for each format; it does not depend on the format.
+    figure.draw_without_rendering()
+    figure.set_layout_engine("none")
+    pdf, png = folder / f"{name}.pdf", folder / f"{name}.png"
+    figure.savefig(pdf, metadata={"CreationDate": None, "Creator": None, "Producer": None})
+    figure.savefig(png, dpi=PNG_DPI, metadata={"Software": None})
+    return [pdf, png]
+
+
+def figure_legend(figure: Figure, axes: Axes) -> None:
+    """Put the legend of `axes` above all axes of the figure, where it hides no curve."""
+    handles, labels = axes.get_legend_handles_labels()
+    if handles:
+        # As many columns as the width holds at about 90 characters a line.
+        columns = max(1, min(len(labels), 90 // (max(map(len, labels)) + 9)))
+        figure.legend(handles, labels, loc="outside upper center", ncols=columns)

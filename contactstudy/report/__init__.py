@@ -1,0 +1,69 @@
+"""The report of a study as a PDF, set by Typst without network and with its own fonts."""
+
+import json
+import shutil
+import tempfile
+from pathlib import Path
+
+import typst
+
+from contactstudy.figures import drawings, write_figures
+from contactstudy.report.content import content
+from contactstudy.resources import resource
+from contactstudy.study.files import writing
+from contactstudy.study.results import StudyResults
+
+__all__ = ["write_report"]
+
+REPORT_FILE = "report.pdf"
+_TEMPLATE = ("template.typ", "blocks.typ", "model.typ", "limits.typ", "references.yml")
+
+
+def write_report(results: StudyResults, out_dir: Path, timings: bool = False) -> Path:
+    """Set the report of a study and of its companions.
+
+    Parameters
+    ----------
+    results : StudyResults
+        A finished study.
+    out_dir : Path
+        Its output directory. Figures are taken from out_dir/figures (of a companion from
+        out_dir/<companion>/figures) and drawn where one is missing.
+    timings : bool
+        Whether the run table shows seconds and memory. They depend on the machine, so without
+        them equal studies give equal bytes.
+
+    Returns
+    -------
+    Path
+        out_dir/report.pdf
+    """
+    out_dir = Path(out_dir)
+    target = out_dir / REPORT_FILE
+    with tempfile.TemporaryDirectory() as folder, writing(target) as path:
+        root = Path(folder)
+        for name in _TEMPLATE:
+            shutil.copyfile(resource("report", name), root / name)
+        _gather(results, out_dir, root / "figures")
+        for companion in results.companions:
+            _gather(companion, out_dir / companion.name, root / "figures" / companion.name)
+        data = json.dumps(content(results, timings), ensure_ascii=False, allow_nan=False)
+        (root / "data.json").write_text(data, "utf-8")
+        pdf = typst.compile(
+            str(root / "template.typ"),
+            root=str(root),
+            ignore_system_fonts=True,
+            timestamp=0,
+        )
+        path.write_bytes(pdf)
+    return target
+
+
+def _gather(results: StudyResults, out_dir: Path, folder: Path) -> None:
+    """Copy the PDF figures of a study into `folder`, having drawn them if one is missing."""
+    names = [made.name for made in drawings(results)]
+    if not all((out_dir / "figures" / f"{name}.pdf").is_file() for name in names):
+        write_figures(results, out_dir)
+    folder.mkdir(parents=True, exist_ok=True)
+    for name in names:
+        shutil.copyfile(out_dir / "figures" / f"{name}.pdf", folder / f"{name}.pdf")

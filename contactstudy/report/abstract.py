@@ -1,0 +1,143 @@
+"""The abstract: sentences whose numbers and whose wording follow from the results."""
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from contactstudy.figures.drawing import exact, fade_end, label, number, position, speed, values
+from contactstudy.figures.passing import all_passing
+from contactstudy.report.metrics import between, of_run
+from contactstudy.report.quantity import grouped, percent
+from contactstudy.report.tables import describe
+from contactstudy.study.results import StudyResults
+
+# Upper limits of the relative L2 error of the dynamic part, and what is said below each.
+GRADES = (
+    (0.01, "can hardly be told from it"),
+    (0.05, "follows it closely"),
+    (0.2, "follows it in the main, with visible differences"),
+    (np.inf, "differs markedly from it"),
+)
+
+
+def grade(error: float) -> str:
+    """Wording for a relative L2 error of the dynamic part."""
+    return next(words for limit, words in GRADES if error < limit or limit == np.inf)
+
+
+def abstract(results: StudyResults) -> list[str]:
+    """Paragraphs of the abstract; what the study does not compare is not spoken of."""
+    paragraphs = [_case(results)]
+    if _errors(results):
+        paragraphs.append(_verdict(results))
+        paragraphs.append(_cost(results))
+    for companion in results.companions:
+        paragraphs += list(_companion(companion))
+    return [p for p in paragraphs if p]
+
+
+def _case(results: StudyResults) -> str:
+    if not results.runs:
+        return (
+            f"This report shows the irregularity of the study {label(results.name)}; "
+            "the study has no runs."
+        )
+    run = results.runs[results.reference or next(iter(results.runs))]
+    x = position(run)
+    count = len(results.runs)
+    text = (
+        f"{_capital(_count(count))} model{'s' if count > 1 else ''} of a wheel rolling on a rail "
+        f"{'are' if count > 1 else 'is'} run over the same track, with the same vehicle, the same "
+        f"irregularity and the same time stepper, from X = {exact(x[0])} to {exact(x[-1])} m "
+        f"at {exact(round(speed(run) * 3.6, 3))} km/h."
+    )
+    r = values(run, "irregularity") if "irregularity" in run else np.zeros(1)
+    if np.any(r):
+        text += f" The irregularity under the wheel has a range of {number(np.ptp(r) * 1e3)} mm."
+    force = values(run, "contact_force")
+    after = force[x >= fade_end(results)]
+    whose = "of the reference " if results.reference else ""
+    text += (
+        f" The contact force {whose}is {number(force[0] * 1e-3)} kN at rest and lies between "
+        f"{number(after.min() * 1e-3)} and {number(after.max() * 1e-3)} kN in motion."
+    )
+    lost = [
+        label(n)
+        for n, d in results.runs.items()
+        if np.any(values(d, "contact_force")[position(d) >= fade_end(results)] <= 0.0)
+    ]
+    text += f" Contact is lost at times in {_listing(lost)}." if lost else " Contact is never lost."
+    return text
+
+
+def _errors(results: StudyResults) -> dict[str, tuple[float, float, float]]:
+    """Run -> errors of its contact force: relative total, relative dynamic, largest in N."""
+    found = {}
+    for name in results.runs:
+        errors = between(results, name, "contact_force")
+        if errors and errors.get("relative_l2_dynamic") is not None:
+            found[name] = (
+                float(errors["relative_l2"]),
+                float(errors["relative_l2_dynamic"]),
+                float(errors["linf"]),
+            )
+    return found
+
+
+def _verdict(results: StudyResults) -> str:
+    errors = _errors(results)
+    ordered = sorted(errors, key=lambda name: errors[name][1])
+    reference = str(results.reference)
+    rail, contact = describe(results, reference)
+    text = f"The reference is the run {label(reference)} (rail: {rail}; contact: {contact})."
+    for i, name in enumerate(ordered):
+        total, dynamic, largest = errors[name]
+        rail, contact = describe(results, name)
+        text += (
+            f" {'The contact force of ' if i == 0 else ''}{label(name)} (rail: {rail}; contact: "
+            f"{contact}) {grade(dynamic)}: {percent(dynamic)} % of the dynamic part, "
+            f"{percent(total)} % of the total force (relative L₂), at most "
+            f"{number(largest * 1e-3)} kN apart{';' if i < len(ordered) - 1 else '.'}"
+        )
+    if len(ordered) > 1 and errors[ordered[0]][1] > 0:
+        ratio = errors[ordered[-1]][1] / errors[ordered[0]][1]
+        text += (
+            f" Between the best and the worst of these the error of the dynamic part changes "
+            f"by a factor of {number(ratio, 2)}."
+        )
+    return text
+
+
+def _cost(results: StudyResults) -> str:
+    reference = str(results.reference)
+    theirs = int(of_run(results, reference)["dofs"])
+    ours = [int(of_run(results, name)["dofs"]) for name in _errors(results)]
+    low, high = min(ours), max(ours)
+    span = grouped(low) if low == high else f"{grouped(low)} to {grouped(high)}"
+    return (
+        f"The reference has {grouped(theirs)} degrees of freedom, the runs compared with it "
+        f"{span}. All error figures are this program's own; none is the paper's."
+    )
+
+
+def _companion(results: StudyResults) -> Iterable[str]:
+    found = all_passing(results)
+    if found:
+        parts = [f"{number(p.percent(1), 2)} % ({label(name)})" for name, p in found.items()]
+        yield (
+            "On a smooth rail the contact force changes as the wheel passes the sleepers, with an "
+            f"amplitude of {_listing(parts)} of the static load."
+        )
+
+
+def _listing(parts: list[str]) -> str:
+    return parts[0] if len(parts) == 1 else f"{', '.join(parts[:-1])} and {parts[-1]}"
+
+
+def _count(n: int) -> str:
+    words = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine")
+    return words[n] if n < len(words) else str(n)
+
+
+def _capital(text: str) -> str:
+    return text[:1].upper() + text[1:]

@@ -1,0 +1,95 @@
+"""Numbers as they stand in the report: SI prefixes, significant digits, typographic signs."""
+
+from typing import Any
+
+import numpy as np
+
+from contactstudy.figures.drawing import exact, number
+
+# Unit -> whether its leading symbol takes a prefix, and which.
+_LARGE = ((1e9, "G"), (1e6, "M"), (1e3, "k"))
+_PREFIXED = ("N", "Pa")
+_PRETTY = {
+    "N*s/m": "N·s/m",
+    "N*s/m^2": "N·s/m²",
+    "N*m^2": "N·m²",
+    "N/m^2": "N/m²",
+    "kg/m^3": "kg/m³",
+    "m^2": "m²",
+    "m^4": "m⁴",
+}
+
+
+def quantity(value: Any, unit: str = "") -> tuple[str, str]:
+    """Value and unit as texts, with an SI prefix where that makes the number readable.
+
+    Parameters
+    ----------
+    value : float, int, bool, str, None or list of these
+        SI value.
+    unit : str
+        Its SI unit, as in the resolved study.
+
+    Returns
+    -------
+    tuple of str
+        Number and unit, e.g. ("65", "MN/m").
+    """
+    if isinstance(value, bool):
+        return ("yes" if value else "no"), ""
+    if value is None or value == "" or value == []:
+        return "none", ""
+    if isinstance(value, str):
+        return value.replace("_", " ") if " " not in value and "." not in value else value, ""
+    if isinstance(value, list | tuple):
+        if not value:
+            return "none", ""
+        return ", ".join(quantity(v)[0] for v in value), pretty_unit(unit)
+    factor, prefix = 1.0, ""
+    size = abs(float(value))
+    if unit.startswith(_PREFIXED):
+        for step, symbol in _LARGE:
+            if size >= step * 0.9999999:
+                factor, prefix = step, symbol
+                break
+    elif unit == "s" and 0 < size < 1e-3:
+        factor, prefix = 1e-6, "µ"
+    elif unit in ("s", "m") and 0 < size < 0.1:
+        factor, prefix = 1e-3, "m"
+    return plain(float(value) / factor), prefix + pretty_unit(unit)
+
+
+def plain(value: float) -> str:
+    """Up to six significant digits without trailing zeros; large whole numbers are grouped."""
+    if float(value).is_integer() and 1e4 <= abs(value) < 1e7:
+        return grouped(int(value))
+    return exact(value)
+
+
+def grouped(value: int) -> str:
+    """Whole number with thin spaces between groups of three digits."""
+    return f"{value:,}".replace(",", "\u2009")
+
+
+def pretty_unit(unit: str) -> str:
+    """Unit with raised dots and exponents."""
+    return _PRETTY.get(unit, unit.replace("*", "·"))
+
+
+def with_unit(value: float, unit: str) -> str:
+    """`quantity` as one text."""
+    return " ".join(part for part in quantity(value, unit) if part)
+
+
+def percent(fraction: float, digits: int = 2) -> str:
+    """Return a fraction in per cent to `digits` significant digits; a dash where undefined."""
+    if fraction is None or not np.isfinite(fraction):
+        return "–"
+    return rounded(100.0 * fraction, digits)
+
+
+def rounded(value: float | None, digits: int = 3) -> str:
+    """`value` to significant digits for a table; a dash where undefined."""
+    if value is None or not np.isfinite(value):
+        return "–"
+    return number(value, digits)

@@ -1,0 +1,216 @@
+"""Tables of the report as plain data: columns and rows of texts."""
+
+import re
+from collections.abc import Mapping
+from typing import Any
+
+from contactstudy.figures.drawing import SIGNALS, Signal, label
+from contactstudy.figures.passing import ORDERS, all_passing, named_orders
+from contactstudy.report.metrics import between, of_run
+from contactstudy.report.quantity import grouped, percent, quantity, rounded
+from contactstudy.study.results import StudyResults
+from contactstudy.study.schema import SECTIONS
+
+Block = dict[str, Any]
+
+_TITLES = {
+    "irregularity": "Irregularity",
+    "track": "Track (per rail)",
+    "vehicle": "Vehicle (per wheel)",
+    "journey": "Journey",
+    "solid": "Solid rail and wheel",
+}
+_NAMES = {
+    "from": "first position of the wheel",
+    "to": "last position of the wheel",
+    "spacing": "support spacing",
+    "band": "wavenumber band",
+    "fade_in": "fade-in length of the irregularity",
+    "layer": "layer below the sleepers",
+    "static_load": "static load",
+    "pressure_at": "positions of stored pressure fields",
+    "k_r": "k_r",
+}
+
+
+def text(content: str) -> Block:
+    """Return a paragraph of plain text, any characters."""
+    return {"kind": "text", "parts": [{"text": content}]}
+
+
+def cited(content: str) -> Block:
+    """Return a paragraph in which {key} cites an entry of references.yml."""
+    pieces = re.split(r"\{([a-z0-9]+)\}", content)
+    parts = [{"cite": p} if i % 2 else {"text": p} for i, p in enumerate(pieces)]
+    return {"kind": "text", "parts": parts}
+
+
+def table(
+    columns: list[str], rows: list[list[str]], caption: str, left: int = 1, note: str = ""
+) -> Block:
+    """Return a table whose first `left` columns are text and whose others are numbers."""
+    made: Block = {
+        "kind": "table",
+        "columns": [
+            {"title": c, "align": "left" if i < left else "right"} for i, c in enumerate(columns)
+        ],
+        "rows": rows,
+        "caption": caption,
+    }
+    return made | ({"note": note} if note else {})
+
+
+def parameter_tables(results: StudyResults) -> list[Block]:
+    """One table for each part of the resolved study except its runs."""
+    made = []
+    for section, title in _TITLES.items():
+        values = results.config.get(section)
+        if values:
+            rows = [_parameter(results, section, key, value) for key, value in values.items()]
+            made.append(
+                table(
+                    ["Parameter", "Value", "Unit", "Given by"],
+                    [[r[0], r[1], r[2], r[3]] for r in rows],
+                    f"{title}.",
+                )
+            )
+            made[-1]["columns"][2]["align"] = made[-1]["columns"][3]["align"] = "left"
+    return made
+
+
+def _parameter(results: StudyResults, section: str, key: str, value: Any) -> list[str]:
+    shown, unit = quantity(value, results.units.get(f"{section}.{key}", ""))
+    return [_NAMES.get(key, key.replace("_", " ")), shown, unit, _origin(section, key, value)]
+
+
+def _origin(section: str, key: str, value: Any) -> str:
+    """Whether a value is the program's default or was set by the study."""
+    for name, field in SECTIONS[section].model_fields.items():
+        if (field.alias or name) == key:
+            default = field.default
+            same = list(default) == value if isinstance(default, tuple) else default == value
+            return "default" if same else "study"
+    return "study"
+
+
+def describe(results: StudyResults, name: str) -> tuple[str, str]:
+    """Rail and contact law of a run in words."""
+    run: Mapping[str, Any] = results.config.get("runs", {}).get(name, {})
+    if run.get("solver") == "surface":
+        return "solid", "surface, penalty"
+    rails = {"euler": "Euler beam", "timoshenko": "Timoshenko beam", "solid": "solid"}
+    rail = rails.get(str(run.get("rail")), str(run.get("rail", "–")))
+    if run.get("rail") != "solid" and "elements_per_bay" in run:
+        rail += f", {run['elements_per_bay']} a bay"
+    if run.get("local_compliance"):
+        rail += ", local compliance"
+    if run.get("law") == "hertz":
+        return rail, "point, Hertz"
+    k_r = run.get("k_r")
+    if isinstance(k_r, str):
+        return rail, f"point, k_r {k_r}"
+    if k_r is None:
+        return rail, "point"
+    value, unit = quantity(float(k_r), "N/m")
+    return rail, f"point, k_r = {value} {unit}"
+
+
+def run_table(results: StudyResults, timings: bool) -> Block:
+    """Sizes of all runs; with `timings` also seconds and memory, which depend on the machine."""
+    columns = ["Run", "Rail", "Contact", "DOFs", "Steps", "Time step (µs)"]
+    if timings:
+        columns += ["Setup (s)", "Stepping (s)", "Memory (MB)"]
+    rows = []
+    for name in results.runs:
+        sizes = of_run(results, name)
+        row = [label(name), *describe(results, name)]
+        row += [grouped(int(sizes["dofs"])), grouped(int(sizes["steps"]))]
+        row.append(quantity(1e6 * float(sizes["dt"]))[0])
+        if timings:
+            seconds = sizes.get("seconds", {})
+            row += [rounded(seconds.get("setup")), rounded(seconds.get("stepping"))]
+            row.append(rounded(sizes.get("peak_memory_mb")))
+        rows.append(row)
+    note = (
+        "Times and memory were measured on the machine that made this report."
+        if timings
+        else "Times and memory depend on the machine: see metrics.json beside this report."
+    )
+    reference = f" Reference: {label(results.reference)}." if results.reference else ""
+    return table(columns, rows, f"Runs and their sizes.{reference}", 3, note)
+
+
+def error_tables(results: StudyResults) -> list[Block]:
+    """For each signal the errors of all runs against the reference."""
+    made = []
+    for signal in SIGNALS:
+        rows = [
+            _error_row(name, errors, signal)
+            for name in results.runs
+            if (errors := between(results, name, signal.name)) is not None
+        ]
+        if rows:
+            columns = ["Run", "L₂ total (%)", "L₂ dynamic (%)"]
+            columns += [f"Largest ({signal.unit})", f"RMS ({signal.unit})"]
+            columns += ["Correlation", "M", "P", "C"]
+            made.append(
+                table(
+                    columns,
+                    rows,
+                    f"{signal.label}: errors against {label(str(results.reference))}.",
+                )
+            )
+    return made
+
+
+def _error_row(name: str, errors: Mapping[str, Any], signal: Signal) -> list[str]:
+    sprague = errors.get("sprague_geers", {})
+    return [
+        label(name),
+        percent(errors["relative_l2"], 3),
+        percent(errors["relative_l2_dynamic"], 3),
+        rounded(signal.scale * errors["linf"]),
+        rounded(signal.scale * errors["rms"]),
+        _correlation(errors.get("correlation")),
+        *(rounded(sprague.get(key), 2) for key in ("M", "P", "C")),
+    ]
+
+
+def _correlation(value: float | None) -> str:
+    """Decimals enough to tell a correlation from 1."""
+    return "–" if value is None or value != value else f"{value:.5f}"
+
+
+def passing_table(results: StudyResults) -> Block | None:
+    """Sleeper-, element- and cell-passing amplitudes of the contact force on a smooth rail."""
+    found = all_passing(results)
+    if not found:
+        return None
+    kinds = {name: named_orders(results, name) for name in found}
+    rows = []
+    for name, p in found.items():
+        row = [label(name), describe(results, name)[0], rounded(p.static * 1e-3, 5)]
+        for kind in ("sleeper", "element", "cell"):
+            order = next((n for n, k in kinds[name].items() if k == kind), None)
+            if order is None or order > ORDERS:
+                row += ["–", "–"]
+            else:
+                row += [rounded(p.amplitudes[order - 1]), rounded(p.percent(order), 2)]
+        rows.append(row)
+    columns = ["Run", "Rail", "Static (kN)", "Sleeper (N)", "(%)"]
+    columns += ["Element (N)", "(%)", "Cell (N)", "(%)"]
+    return table(
+        columns,
+        rows,
+        "Amplitudes of the contact force on the smooth rail at the sleeper-, element- and "
+        "cell-passing wavelengths, in N and in per cent of the static load.",
+        2,
+        "A dash where a model has no elements or cells of a length that divides a bay.",
+    )
+
+
+def versions_table(results: StudyResults) -> Block:
+    """Packages and their versions."""
+    versions: Mapping[str, str] = results.provenance.get("versions", {})
+    rows = [[name, str(v)] for name, v in versions.items()]
+    return table(["Package", "Version"], rows, "Versions used.", 2)
