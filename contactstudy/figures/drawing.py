@@ -43,7 +43,9 @@ class Signal:
     name : str
         Variable of the dataset.
     label : str
-        What stands on the axis and in tables.
+        What stands in captions and tables.
+    axis : str
+        What stands on the axis.
     unit : str
         Unit shown.
     scale : float
@@ -52,15 +54,16 @@ class Signal:
 
     name: str
     label: str
+    axis: str
     unit: str
     scale: float
 
 
 SIGNALS = (
-    Signal("contact_force", "Contact force", "kN", 1e-3),
-    Signal("wheel_displacement", "Wheel displacement", "mm", 1e3),
-    Signal("wheel_acceleration", "Wheel acceleration", "m/s²", 1.0),
-    Signal("rail_displacement", "Rail displacement at the wheel", "mm", 1e3),
+    Signal("contact_force", "Contact force", "Force", "kN", 1e-3),
+    Signal("wheel_displacement", "Wheel displacement", "Displacement", "mm", 1e3),
+    Signal("wheel_acceleration", "Wheel acceleration", "Acceleration", "m/s²", 1.0),
+    Signal("rail_displacement", "Rail displacement at the wheel", "Displacement", "mm", 1e3),
 )
 
 

@@ -52,18 +52,14 @@ def _draw(results: StudyResults, signal: Signal) -> Figure:
     _limit_to_view(zoom, low, high)
     whole.axvspan(low, high, facecolor="none", edgecolor=BLACK, lw=0.5, ls=":")
     whole.tick_params(labelbottom=False)
-    whole.set_ylabel(f"{_axis(signal)} ({signal.unit})")
-    zoom.set_ylabel(f"{_axis(signal)} ({signal.unit})")
-    below.set_ylabel(f"Difference ({signal.unit})")
+    whole.set_ylabel(f"{signal.axis}\n({signal.unit})")
+    zoom.set_ylabel(f"{signal.axis}\n({signal.unit})")
+    below.set_ylabel(f"Difference\n({signal.unit})")
     below.set_xlabel("Position X of the wheel (m)")
     zoom.set_xlabel("Position X of the wheel (m), dotted stretch enlarged")
     figure.align_ylabels()
     figure_legend(figure, whole)
     return figure
-
-
-def _axis(signal: Signal) -> str:
-    return signal.label.removesuffix(" at the wheel")
 
 
 def _curves(axes: Axes, results: StudyResults, signal: Signal) -> None:

@@ -19,6 +19,7 @@ from contactstudy.figures.drawing import (
     wheel_note,
 )
 from contactstudy.figures.style import BLACK, GREY, figure_legend, new_figure
+from contactstudy.passing import passing_amplitude
 from contactstudy.study.results import StudyResults
 
 ORDERS = 12  # of the support spacing; contains four elements a bay and six cells of 0.1 m
@@ -63,11 +64,10 @@ def spacing(results: StudyResults) -> float | None:
 
 
 def passing(run: xr.Dataset, bay: float) -> Passing | None:
-    """Least-squares fit of a slow drift and of the harmonics of the support spacing `bay` [m].
+    """Components of the contact force that repeat with the support spacing `bay` [m].
 
-    The window is the later half of the run, as many whole bays as it holds: the start from
-    rest has died out there, and over whole bays the harmonics are orthogonal. The drift (a
-    cubic) takes up what is left of the slow motion of the vehicle.
+    Taken over the later half of the run, as many whole bays as it holds: the start from rest
+    has died out there.
 
     Returns
     -------
@@ -79,13 +79,10 @@ def passing(run: xr.Dataset, bay: float) -> Passing | None:
     if bays < 2:
         return None
     window = (float(x[-1] - bays * bay), float(x[-1]))
-    keep = x > window[0]
-    at = x[keep]
-    drift = np.linspace(-1.0, 1.0, at.size)[:, None] ** np.arange(4)
-    phase = 2 * np.pi * np.outer(at, np.arange(1, ORDERS + 1)) / bay
-    columns = np.hstack([drift, np.cos(phase), np.sin(phase)])
-    fit = np.linalg.lstsq(columns, force[keep], rcond=None)[0][drift.shape[1] :]
-    return Passing(np.hypot(fit[:ORDERS], fit[ORDERS:]), float(force[0]), window)
+    # One sample more than the window, so that its first end can be interpolated.
+    first = max(int(np.searchsorted(x, window[0])) - 1, 0)
+    amplitudes = passing_amplitude(x[first:], force[first:], bay, ORDERS, bay)
+    return Passing(amplitudes, float(force[0]), window)
 
 
 def all_passing(results: StudyResults) -> dict[str, Passing]:

@@ -88,6 +88,14 @@ def percent(fraction: float, digits: int = 2) -> str:
     return rounded(100.0 * fraction, digits)
 
 
+def fixed(value: float | None, decimals: int) -> str:
+    """`value` with so many decimals and a typographic minus; a dash where undefined."""
+    if value is None or not np.isfinite(value):
+        return "–"
+    text = f"{value:.{decimals}f}"
+    return text.removeprefix("-") if float(text) == 0 else text.replace("-", "\N{MINUS SIGN}")
+
+
 def rounded(value: float | None, digits: int = 3) -> str:
     """`value` to significant digits for a table; a dash where undefined."""
     if value is None or not np.isfinite(value):

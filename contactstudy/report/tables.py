@@ -7,7 +7,7 @@ from typing import Any
 from contactstudy.figures.drawing import SIGNALS, Signal, label
 from contactstudy.figures.passing import ORDERS, all_passing, named_orders
 from contactstudy.report.metrics import between, of_run
-from contactstudy.report.quantity import grouped, percent, quantity, rounded
+from contactstudy.report.quantity import fixed, grouped, percent, quantity, rounded
 from contactstudy.study.results import StudyResults
 from contactstudy.study.schema import SECTIONS
 
@@ -164,21 +164,16 @@ def error_tables(results: StudyResults) -> list[Block]:
 
 
 def _error_row(name: str, errors: Mapping[str, Any], signal: Signal) -> list[str]:
-    sprague = errors.get("sprague_geers", {})
+    sprague = errors.get("sprague_geers_dynamic", {})
     return [
         label(name),
         percent(errors["relative_l2"], 3),
         percent(errors["relative_l2_dynamic"], 3),
         rounded(signal.scale * errors["linf"]),
         rounded(signal.scale * errors["rms"]),
-        _correlation(errors.get("correlation")),
-        *(rounded(sprague.get(key), 2) for key in ("M", "P", "C")),
+        fixed(errors.get("correlation"), 5),
+        *(fixed(sprague.get(key), 3) for key in ("M", "P", "C")),
     ]
-
-
-def _correlation(value: float | None) -> str:
-    """Decimals enough to tell a correlation from 1."""
-    return "–" if value is None or value != value else f"{value:.5f}"
 
 
 def passing_table(results: StudyResults) -> Block | None:

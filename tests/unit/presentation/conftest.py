@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from contactstudy.study.metrics import study_metrics
 from contactstudy.study.results import IrregularityInfo, Level, Spectrum, StudyResults
 
 SPEED, DT, STATIC = 300 / 3.6, 1e-4, 67.4e3
@@ -159,16 +160,16 @@ def made_study(rough=1.0, name="point_vs_surface", companions=()):
         profile=Level("seed 1", x, r),
         measured=Spectrum("measured level", k[:200], 0.3 * paper_density(k[:200]), (0.15, 2.5)),
     )
-    names = list(CONFIG["runs"])
+    runs = {n: made_run(i, rough, n) for i, n in enumerate(CONFIG["runs"])}
     return StudyResults(
         name=name,
         title="Point contact against surface contact",
         description="For tests: 100 % made up, with #special* _characters_ @x $5 <b> {c}.",
         config=copy.deepcopy(CONFIG),
         units=dict(UNITS),
-        runs={n: made_run(i, rough, n) for i, n in enumerate(names)},
+        runs=runs,
         reference="surface",
-        metrics=made_metrics(names),
+        metrics=made_metrics(runs, "surface"),
         irregularity=info if rough else IrregularityInfo(),
         provenance={
             "seed": 1,
@@ -181,14 +182,9 @@ def made_study(rough=1.0, name="point_vs_surface", companions=()):
     )
 
 
-def made_metrics(names, size=0.01):
-    return {
-        "runs": {
-            n: {"dofs": 730, "steps": 2880, "dt": DT, "seconds": {"setup": 1.2, "stepping": 0.3}}
-            for n in names
-        },
-        "pairs": {},
-    }
+def made_metrics(runs, reference):
+    cost = {"seconds": {"setup": 1.25, "stepping": 0.375}, "peak_memory_mb": 187.5}
+    return study_metrics(runs, dict.fromkeys(runs, cost), reference, 9.0)
 
 
 @pytest.fixture
@@ -212,6 +208,6 @@ def bare():
         units=study.units,
         runs=runs,
         reference="point",
-        metrics=made_metrics(list(runs)),
+        metrics=made_metrics(runs, "point"),
         provenance=study.provenance,
     )

@@ -1,0 +1,155 @@
+"""Figures: axes, units, equal bytes, and optional data that is not there."""
+
+import numpy as np
+import pytest
+
+from contactstudy.figures import drawings, write_figures
+from contactstudy.figures.drawing import exact, number
+from contactstudy.figures.irregularity import mean_level_difference
+from contactstudy.figures.passing import all_passing
+from contactstudy.figures.patch import patch_of
+from contactstudy.figures.style import drawing, run_styles, save
+from contactstudy.study.results import Spectrum
+
+LABELS = {
+    "irregularity_spectrum": {"Angular wavenumber ω (rad/m)", "two-sided (m²/(rad/m))"},
+    "irregularity_profile": {"Position X along the rail (m)", "(mm)"},
+    "contact_force": {"Position X of the wheel (m)", "Force\n(kN)", "Difference\n(kN)"},
+    "wheel_displacement": {"Displacement\n(mm)", "Difference\n(mm)"},
+    "wheel_acceleration": {"Acceleration\n(m/s²)", "Difference\n(m/s²)"},
+    "rail_displacement": {"Displacement\n(mm)", "Difference\n(mm)"},
+    "third_octaves": {"Third-octave band centre (Hz)", "Force level (dB re 1 N)", "(dB)"},
+    "patch_pressure": {"Along the rail (mm)", "Across the rail (mm)", "Pressure (MPa)"},
+    "patch_history": {"Contact area (mm²)", "Peak pressure (MPa)"},
+    "deformed_section": {"Across the rail y (mm)", "Vertical displacement (mm)"},
+}
+
+
+@pytest.fixture
+def by_name(results):
+    return {made.name: made for made in drawings(results)}
+
+
+def test_every_figure_of_a_full_study_is_there_with_its_units(by_name):
+    assert set(by_name) == set(LABELS)
+    with drawing():
+        for name, wanted in LABELS.items():
+            figure = by_name[name].draw()
+            shown = [t for axes in figure.axes for t in (axes.get_xlabel(), axes.get_ylabel())]
+            for text in wanted:
+                assert any(text in label for label in shown), (name, text, shown)
+
+
+def test_spectrum_has_logarithmic_axes_and_a_second_axis_of_wavelengths(by_name):
+    with drawing():
+        figure = by_name["irregularity_spectrum"].draw()
+        figure.draw_without_rendering()
+    axes = figure.axes[0]
+    assert axes.get_xscale() == axes.get_yscale() == "log"
+    (second,) = axes.child_axes
+    assert second.get_xlabel() == "Wavelength (m)"
+    low, high = axes.get_xlim()
+    assert sorted(second.get_xlim()) == pytest.approx([2 * np.pi / high, 2 * np.pi / low])
+
+
+def test_smooth_companion_has_passing_figures_and_no_irregularity(results):
+    names = {made.name for made in drawings(results.companions[0])}
+    assert {"smooth_force", "passing_amplitudes"} <= names
+    assert not any(name.startswith("irregularity") for name in names)
+
+
+def test_passing_amplitudes_are_those_put_into_the_signal(results):
+    found = all_passing(results.companions[0])
+    for k, p in enumerate(found.values()):
+        assert p.amplitudes[0] == pytest.approx(350.0 * (1 + 0.1 * k), rel=2e-3)
+        assert p.amplitudes[3] == pytest.approx(40.0 * (1 + 0.1 * k), rel=2e-3)
+        assert p.amplitudes[[1, 2, 4]] == pytest.approx(0.0, abs=1.0)
+
+
+def test_missing_optional_data_leaves_figures_out(bare):
+    names = [made.name for made in drawings(bare)]
+    signals = [
+        "contact_force",
+        "wheel_displacement",
+        "wheel_acceleration",
+        "rail_displacement",
+        "third_octaves",
+    ]
+    assert names == signals
+
+
+def test_second_writing_gives_equal_bytes(by_name, tmp_path):
+    for name in ("irregularity_spectrum", "patch_pressure", "patch_history"):
+        written = []
+        for folder in ("a", "b"):
+            with drawing():
+                written.append(save(by_name[name].draw(), tmp_path / folder, name))
+        assert [p.name for p in written[0]] == [f"{name}.pdf", f"{name}.png"]
+        for one, other in zip(*written, strict=True):
+            assert one.read_bytes() == other.read_bytes(), one.name
+            assert b"CreationDate" not in one.read_bytes()
+
+
+def test_writing_makes_every_figure_twice_and_nothing_else(bare, tmp_path):
+    runs = {name: bare.runs[name] for name in ("point", "tangent")}
+    small = type(bare)(**{**vars(bare), "runs": runs})
+    written = write_figures(small, tmp_path)
+    names = [made.name for made in drawings(small)]
+    assert [p.name for p in written] == [f"{n}.{e}" for n in names for e in ("pdf", "png")]
+    assert sorted(p.name for p in (tmp_path / "figures").iterdir()) == sorted(
+        p.name for p in written
+    )
+
+
+def test_half_model_pressure_is_mirrored(results):
+    patch = patch_of(results.runs["surface"])
+    assert patch is not None
+    assert patch.y.min() == -patch.y.max()
+    for x, y, p in zip(patch.x[:40], patch.y[:40], patch.pressure[:40], strict=True):
+        twin = np.isclose(patch.x, x) & np.isclose(patch.y, -y)
+        assert patch.pressure[twin] == pytest.approx(p)
+
+
+def test_captions_change_with_the_data(results, by_name):
+    run = results.runs["tangent"]
+    louder = run.assign(contact_force=run["contact_force"] * 1.05)
+    other = type(results)(**{**vars(results), "runs": {**results.runs, "tangent": louder}})
+    changed = {made.name: made.caption for made in drawings(other)}
+    assert changed["contact_force"] != by_name["contact_force"].caption
+    assert "largest for tangent" in changed["contact_force"]
+
+
+def test_level_difference_of_spectra_is_the_factor_between_them():
+    w = np.geomspace(0.1, 10, 50)
+    one = Spectrum("one", w, 1e-7 / w**2, (0.2, 8.0))
+    half = Spectrum("half", w, 0.5e-7 / w**2, (0.1, 5.0))
+    mean, low, high = mean_level_difference(half, one)
+    assert (mean, low, high) == pytest.approx((10 * np.log10(0.5), 0.2, 5.0))
+
+
+def test_runs_differ_in_dashes_as_well_as_in_colour():
+    styles = run_styles([f"run{i}" for i in range(12)], "run0")
+    assert styles["run0"].color == "#000000"
+    pairs = {(s.color, str(s.linestyle)) for s in styles.values()}
+    assert len(pairs) == 12
+    assert len({str(styles[f"run{i}"].linestyle) for i in range(1, 7)}) == 6
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        (1093.7, "1090"),
+        (-0.00123, "−0.00123"),
+        (1.5e-7, "1.50·10⁻⁷"),
+        (0.0, "0"),
+        (99.96, "100"),
+        (12345.6, "12300"),
+        (float("nan"), "not finite"),
+    ],
+)
+def test_number_to_three_digits(value, text):
+    assert number(value) == text
+
+
+def test_given_values_lose_trailing_zeros():
+    assert [exact(v) for v in (6.0, 83.333333, 1e11, 0.05)] == ["6", "83.3333", "1·10¹¹", "0.05"]
