@@ -1,0 +1,46 @@
+"""What a solid track shows to the contact: a piece of running surface."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class SurfacePatch:
+    """Running-surface nodes around a position, with their part in the track.
+
+    Node ``ix*len(y) + iy`` lies at ``(x[ix], y[iy])``. Its displacement along the smooth
+    surface's outward normal is ``map @ u[dofs] + residual @ f`` for nodal forces ``f`` along
+    that normal [N]; a nodal force enters the system as ``map.T @ f`` on `dofs`. With a
+    symmetric half model a nodal force is the total of the node and its mirror image.
+
+    Attributes
+    ----------
+    key : int
+        Patches with equal keys have equal `dofs`.
+    dofs : ndarray (nd,)
+        Dofs of the track.
+    map : ndarray (nodes, nd)
+    residual : ndarray (nodes, nodes)
+        Flexibility that the track's dofs leave out [m/N].
+    x : ndarray (nx,)
+        Positions on the track [m].
+    y : ndarray (ny,)
+        Lateral positions [m].
+    centre_map : ndarray (nd,)
+        Deflection of the rail's centre line at the position asked for.
+    centre_residual : ndarray (nodes,)
+        What nodal forces add to that deflection [m/N].
+    """
+
+    key: int
+    dofs: NDArray[np.int64]
+    map: Array
+    residual: Array
+    x: Array
+    y: Array
+    centre_map: Array
+    centre_residual: Array

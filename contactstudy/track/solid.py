@@ -1,0 +1,315 @@
+"""The track with its rail as a three-dimensional solid: a chain of condensed cells."""
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+import scipy.sparse as sp
+from numpy.typing import NDArray
+
+from contactstudy.exceptions import InputError
+from contactstudy.solids.cell import RailCell, section_of
+from contactstudy.solids.recipe import CellRecipe
+from contactstudy.track.model import Rail, Track, WinklerFoundation
+from contactstudy.track.patch import SurfacePatch
+from contactstudy.track.supports import PadRow, SupportedRail, add_supports
+
+Array = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+
+# coordinates of an interface plane that are its rigid motions, see `interface_basis`
+_AXIAL, _VERTICAL = 0, 1
+
+
+def solid_rail(recipe: CellRecipe) -> Rail:
+    """Beam properties of the rail that a recipe meshes: integrals over its very section mesh."""
+    section, _, _ = section_of(recipe)
+    return Rail(
+        section=section.properties(recipe.poisson_ratio),
+        youngs_modulus=recipe.youngs_modulus,
+        poisson_ratio=recipe.poisson_ratio,
+        density=recipe.density,
+        profile_name=recipe.profile,
+    )
+
+
+def fitted_recipe(recipe: CellRecipe, track: Track) -> CellRecipe:
+    """The recipe with the nearest cell length that divides the track's bay."""
+    cells = max(1, round(track.bay_length / recipe.length))
+    return replace(recipe, length=track.bay_length / cells)
+
+
+@dataclass(frozen=True)
+class SolidTrack:
+    """A discretised track whose rail is a chain of equal condensed cells.
+
+    Parameters
+    ----------
+    track : Track
+        Its rail must be the one that the cell's recipe makes, see `solid_rail`.
+    cell : RailCell
+
+    Raises
+    ------
+    InputError
+        If the cells do not divide the bays, or rail and cell are not of the same stuff.
+    """
+
+    track: Track
+    cell: RailCell
+
+    def __post_init__(self) -> None:
+        recipe, rail, problems = self.cell.recipe, self.track.rail, []
+        ratio = self.track.bay_length / recipe.length
+        if abs(ratio - round(ratio)) > 1e-9 * ratio:
+            problems.append(
+                f"cell length = {recipe.length} m: must divide the bay of {self.track.bay_length} m"
+            )
+        if self.n_cells < 4:
+            problems.append(f"track length = {self.track.length} m: must hold at least 4 cells")
+        if not recipe.symmetric:
+            problems.append("symmetric = False: a track needs the symmetric half section")
+        same = (
+            (rail.profile_name, recipe.profile, "profile"),
+            (rail.youngs_modulus, recipe.youngs_modulus, "youngs_modulus in Pa"),
+            (rail.poisson_ratio, recipe.poisson_ratio, "poisson_ratio"),
+            (rail.density, recipe.density, "density in kg/m^3"),
+        )
+        problems += [
+            f"{name}: the rail has {ours}, the solid cell {theirs}; both must be the same"
+            for ours, theirs, name in same
+            if ours != theirs
+        ]
+        if problems:
+            raise InputError(problems)
+
+    @property
+    def n_cells(self) -> int:
+        """Number of cells."""
+        return round(self.track.length / self.cell.recipe.length)
+
+    @property
+    def n_dofs(self) -> int:
+        """Number of dofs, end conditions eliminated."""
+        return self.stiffness.shape[0]
+
+    @property
+    def mass(self) -> sp.csr_array:
+        """Mass matrix (n_dofs, n_dofs)."""
+        return self._assembled.mass
+
+    @property
+    def damping(self) -> sp.csr_array:
+        """Damping matrix (n_dofs, n_dofs): pads, ballast or foundation."""
+        return self._assembled.damping
+
+    @property
+    def stiffness(self) -> sp.csr_array:
+        """Stiffness matrix (n_dofs, n_dofs)."""
+        return self._assembled.stiffness
+
+    def rail_rows(self, x: Array) -> tuple[IntArray, Array]:
+        """Rows that give the deflection of the rail's centre line at X.
+
+        Parameters
+        ----------
+        x : ndarray
+            (m,) positions on the track [m].
+
+        Returns
+        -------
+        dofs : ndarray
+            (m, nd) int64.
+        weights : ndarray
+            (m, nd); u(x) = sum(weights * u[dofs]). A dof that an end condition holds has
+            weight 0.
+        """
+        cell, slices, t = self._locate(np.atleast_1d(np.asarray(x, dtype=float)))
+        rows = self.cell.centre_map
+        weights = (1 - t)[:, None] * rows[slices] + t[:, None] * rows[slices + 1]
+        return self._placed(cell * self._step, weights)
+
+    def local_compliance(self, x: Array) -> Array:
+        """Zero: the local flexibility of the solid belongs to its surface, not to its centre."""
+        return np.zeros(np.atleast_1d(x).shape)
+
+    def patch(self, x: float, half_length: float) -> SurfacePatch:
+        """Running surface around X, as the contact sees it.
+
+        Parameters
+        ----------
+        x : float
+            Position of the wheel on the track [m].
+        half_length : float
+            The patch covers at least ``x - half_length`` to ``x + half_length`` [m].
+
+        Returns
+        -------
+        SurfacePatch
+
+        Raises
+        ------
+        InputError
+            If the patch does not fit on two cells around X or leaves the track.
+        """
+        h, ns = self.thickness, self.cell.recipe.n_slices
+        pair = min(max(int(np.floor(x / self.cell.recipe.length - 0.5)), 0), self.n_cells - 2)
+        local = (x - pair * self.cell.recipe.length) / h
+        first = int(np.floor(local - half_length / h))
+        last = first + int(np.ceil(2 * half_length / h)) + 1
+        if first < 0 or last > 2 * ns:
+            raise InputError(
+                f"contact patch at X = {x:.4f} m with half length {half_length} m does not lie "
+                f"within two rail cells of {self.cell.recipe.length} m on the track"
+            )
+        dofs, held = self._pair_dofs(pair)
+        planes = slice(first, last + 1)
+        surface, residual, centre, centre_residual = self._pair_maps
+        ny, count = surface.shape[1], last + 1 - first
+        rows = surface[planes].reshape(count * ny, -1)
+        at = min(max(int(np.floor(local)), 0), 2 * ns - 1)
+        t = local - at
+        mean = (1 - t) * centre[at] + t * centre[at + 1]
+        return SurfacePatch(
+            key=pair,
+            dofs=dofs,
+            map=np.where(held, 0.0, rows) if held.any() else rows,
+            residual=residual[planes, :, planes].reshape(count * ny, count * ny),
+            x=np.asarray(
+                np.arange(first, last + 1) * h + pair * self.cell.recipe.length, dtype=float
+            ),
+            y=self.cell.surface_y,
+            centre_map=np.where(held, 0.0, mean),
+            centre_residual=(
+                (1 - t) * centre_residual[at, planes] + t * centre_residual[at + 1, planes]
+            ).ravel(),
+        )
+
+    @property
+    def thickness(self) -> float:
+        """Length of a slice of the mesh [m]."""
+        return self.cell.recipe.length / self.cell.recipe.n_slices
+
+    @property
+    def _step(self) -> int:
+        """Bare dofs of one plane and one cell's internal modes."""
+        return self.cell.recipe.interface_modes + self.cell.recipe.internal_modes
+
+    def _locate(self, x: Array) -> tuple[IntArray, IntArray, Array]:
+        """Cell, slice in it and fraction of the slice of each X."""
+        ns = self.cell.recipe.n_slices
+        scaled = x / self.thickness
+        index = np.clip(np.floor(scaled).astype(np.int64), 0, self.n_cells * ns - 1)
+        return index // ns, index % ns, scaled - index
+
+    def _placed(self, first: IntArray, weights: Array) -> tuple[IntArray, Array]:
+        """Weights on the bare dofs from `first` on, as final dofs; held ones get weight 0."""
+        dofs = self._dof_of_bare[first[:, None] + np.arange(weights.shape[1])]
+        held = dofs < 0
+        return np.where(held, 0, dofs), np.where(held, 0.0, weights)
+
+    def _pair_dofs(self, pair: int) -> tuple[IntArray, NDArray[np.bool_]]:
+        first = pair * self._step
+        dofs = self._dof_of_bare[first : first + 2 * self._step + self.cell.recipe.interface_modes]
+        held = dofs < 0
+        # a held dof has weight 0 everywhere; name a free neighbour in its place
+        return np.where(held, dofs.max(), dofs), held
+
+    @cached_property
+    def _pair_maps(self) -> tuple[Array, Array, Array, Array]:
+        """Surface and centre rows, and residuals, of two neighbouring cells by plane."""
+        ns, m = self.cell.recipe.n_slices, self.cell.recipe.interface_modes
+        ny, nd = self.cell.surface_map.shape[1:]
+        planes, width = 2 * ns + 1, 2 * nd - m
+        surface, centre = np.zeros((planes, ny, width)), np.zeros((planes, width))
+        for start, columns in ((0, slice(0, nd)), (ns, slice(nd - m, width))):
+            surface[start : start + ns + 1, :, columns] = self.cell.surface_map
+            centre[start : start + ns + 1, columns] = self.cell.centre_map
+        # on the middle plane both cells speak of the same interface: the second one's rows
+        # stand there, the first one's must go
+        surface[ns, :, : nd - m] = 0.0
+        centre[ns, : nd - m] = 0.0
+        return (
+            surface,
+            self.cell.residual.reshape(planes, ny, planes, ny),
+            centre,
+            self.cell.centre_residual.reshape(planes, planes, ny),
+        )
+
+    @cached_property
+    def _held(self) -> IntArray:
+        """Bare dofs that the end conditions hold.
+
+        Nothing else holds the rail along X, so ends that leave it free to slide are held
+        there by one axial coordinate.
+        """
+        m, last = self.cell.recipe.interface_modes, self.n_cells * self._step
+        if self.track.ends == "clamped":
+            return np.r_[0:m, last : last + m]
+        if self.track.ends == "pinned":
+            return np.array([_AXIAL, _VERTICAL, last + _VERTICAL])
+        return np.array([_AXIAL])
+
+    @cached_property
+    def _dof_of_bare(self) -> IntArray:
+        """Final dof of each bare dof, -1 where held."""
+        n = self.n_cells * self._step + self.cell.recipe.interface_modes
+        final = np.full(n, -1, dtype=np.int64)
+        final[np.setdiff1d(np.arange(n), self._held)] = self._assembled.rail_dofs
+        return final
+
+    @cached_property
+    def _assembled(self) -> SupportedRail:
+        cell, step, n_cells = self.cell, self._step, self.n_cells
+        nd, m = len(cell.stiffness), cell.recipe.interface_modes
+        n = n_cells * step + m
+        dofs = step * np.arange(n_cells)[:, None] + np.arange(nd)
+        free = np.setdiff1d(np.arange(n), self._held)
+
+        def chain(A: Array) -> sp.csr_array:
+            rows, columns = np.repeat(dofs, nd, axis=1).ravel(), np.tile(dofs, (1, nd)).ravel()
+            total = sp.csr_array((np.tile(A.ravel(), n_cells), (rows, columns)), shape=(n, n))
+            return total[free][:, free]
+
+        stiffness, damping = cell.stiffness, None
+        if isinstance(self.track.support, WinklerFoundation):
+            # integral of f f^T dx, f = mean displacement of the foot, linear between planes
+            f, h = cell.foot_map, self.thickness
+            bed = (
+                h
+                / 6
+                * (2 * (f[:-1].T @ f[:-1] + f[1:].T @ f[1:]) + f[:-1].T @ f[1:] + f[1:].T @ f[:-1])
+            )
+            k, c = self.track.support.values("Z")
+            stiffness, damping = stiffness + k * bed, chain(c * bed)
+        bare = np.arange(n)
+        keys = cell.recipe.length * (bare // step + 0.5 * (bare % step >= m))
+        place = np.full(n, -1, dtype=np.int64)
+        place[free] = np.arange(len(free))
+        return add_supports(
+            chain(cell.mass),
+            damping,
+            chain(stiffness),
+            keys[free],
+            self.track,
+            [self._pad_row(first, last, place) for first, last in self.track.pad_footprints],
+        )
+
+    def _pad_row(self, first: float, last: float, place: IntArray) -> PadRow:
+        """Average foot displacement over a footprint, linear between the planes."""
+        h = self.thickness
+        inner = h * np.arange(np.ceil(first / h), np.floor(last / h) + 1)
+        knots = np.unique(np.clip(np.r_[first, inner, last], first, last))
+        # trapezoids between knots are exact for a piecewise linear function
+        weight = np.full(len(knots), 1.0 if len(knots) == 1 else 0.0)
+        share = 0.5 * np.diff(knots) / (last - first if last > first else 1.0)
+        weight[:-1] += share
+        weight[1:] += share
+        cells, index, t = self._locate(knots)
+        row = np.zeros(len(place))
+        for c, i, s, w in zip(cells, index, t, weight, strict=True):
+            start = c * self._step
+            f = (1 - s) * self.cell.foot_map[i] + s * self.cell.foot_map[i + 1]
+            row[start : start + len(f)] += w * f
+        used = np.flatnonzero((row != 0.0) & (place >= 0))
+        return PadRow(place[used], row[used])

@@ -1,0 +1,209 @@
+"""The track with every node of its solid rail: the check on the condensed cells.
+
+Same mesh, same supports, no reduction. Only short rails are practical.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import scipy.sparse as sp
+from numpy.typing import NDArray
+
+from contactstudy.exceptions import InputError
+from contactstudy.solids.cell import section_of
+from contactstudy.solids.chain import Slice
+from contactstudy.solids.extrusion import ExtrudedSlice
+from contactstudy.solids.recipe import CellRecipe
+from contactstudy.solids.section_mesh import SectionMesh
+from contactstudy.solids.section_rows import SectionRows
+from contactstudy.track.model import Track, WinklerFoundation
+from contactstudy.track.patch import SurfacePatch
+from contactstudy.track.supports import PadRow, SupportedRail, add_supports
+
+Array = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+
+
+@dataclass(frozen=True)
+class UnreducedTrack:
+    """A discretised track that keeps all nodes of the rail's mesh.
+
+    Parameters
+    ----------
+    track : Track
+        With clamped ends.
+    recipe : CellRecipe
+        Mesh; its cell length only sets the length of a slice, as in the condensed track.
+
+    Raises
+    ------
+    InputError
+        If the ends are not clamped or the slices do not divide the track.
+    """
+
+    track: Track
+    recipe: CellRecipe
+
+    def __post_init__(self) -> None:
+        problems = []
+        if self.track.ends != "clamped":
+            problems.append(f"track ends = {self.track.ends!r}: must be 'clamped' here")
+        cells = self.track.length / self.recipe.length
+        if abs(cells - round(cells)) > 1e-9 * cells:
+            problems.append(
+                f"cell length = {self.recipe.length} m: must divide the track of "
+                f"{self.track.length} m"
+            )
+        if problems:
+            raise InputError(problems)
+
+    @property
+    def thickness(self) -> float:
+        """Length of a slice of the mesh [m]."""
+        return self.recipe.length / self.recipe.n_slices
+
+    @property
+    def n_slices(self) -> int:
+        """Slices of the whole track."""
+        return round(self.track.length / self.thickness)
+
+    @property
+    def n_dofs(self) -> int:
+        """Number of dofs, clamped end planes eliminated."""
+        return self.mass.shape[0]
+
+    @property
+    def mass(self) -> sp.csr_array:
+        """Mass matrix (n_dofs, n_dofs)."""
+        return self._assembled.mass
+
+    @property
+    def damping(self) -> sp.csr_array:
+        """Damping matrix (n_dofs, n_dofs)."""
+        return self._assembled.damping
+
+    @property
+    def stiffness(self) -> sp.csr_array:
+        """Stiffness matrix (n_dofs, n_dofs)."""
+        return self._assembled.stiffness
+
+    def rail_rows(self, x: Array) -> tuple[IntArray, Array]:
+        """Rows of the section's mean deflection at X, as `SolidTrack.rail_rows`."""
+        index, t = self._locate(np.atleast_1d(np.asarray(x, dtype=float)))
+        centre = self._rows.centre
+        used = np.flatnonzero(centre)
+        dofs = self._place[index[:, None] * self._n + np.r_[used, self._n + used]]
+        weights = np.hstack([(1 - t)[:, None] * centre[used], t[:, None] * centre[used]])
+        return np.where(dofs < 0, 0, dofs), np.where(dofs < 0, 0.0, weights)
+
+    def local_compliance(self, x: Array) -> Array:
+        """Zero, as for the condensed track."""
+        return np.zeros(np.atleast_1d(x).shape)
+
+    def patch(self, x: float, half_length: float) -> SurfacePatch:
+        """Running surface around X, as `SolidTrack.patch`, with no residual left."""
+        h, ny, n = self.thickness, len(self._rows.surface_y), self._n
+        first = int(np.floor((x - half_length) / h))
+        last = first + int(np.ceil(2 * half_length / h)) + 1
+        if first < 1 or last > self.n_slices - 1:
+            raise InputError(
+                f"contact patch at X = {x:.4f} m with half length {half_length} m leaves the track"
+            )
+        normal = self._rows.surface
+        used = np.flatnonzero(np.any(normal != 0.0, axis=0))
+        planes = np.arange(first, last + 1)
+        rows = np.kron(np.eye(len(planes)), normal[:, used])
+        (at,), (t,) = self._locate(np.array([x]))
+        mean_dofs = np.flatnonzero(self._rows.centre)
+        centre = self._rows.centre[mean_dofs]
+        dofs = self._place[
+            np.r_[
+                (planes[:, None] * n + used).ravel(),
+                at * n + mean_dofs,
+                (at + 1) * n + mean_dofs,
+            ]
+        ]
+        extra = 2 * len(mean_dofs)
+        return SurfacePatch(
+            key=first,
+            dofs=dofs,
+            map=np.hstack([rows, np.zeros((len(rows), extra))]),
+            residual=np.zeros((len(planes) * ny,) * 2),
+            x=np.asarray(h * planes, dtype=float),
+            y=self._rows.surface_y,
+            centre_map=np.r_[np.zeros(rows.shape[1]), (1 - t) * centre, t * centre],
+            centre_residual=np.zeros(len(planes) * ny),
+        )
+
+    @cached_property
+    def _section(self) -> tuple[SectionMesh, ExtrudedSlice, SectionRows]:
+        return section_of(self.recipe)
+
+    @property
+    def _rows(self) -> SectionRows:
+        return self._section[2]
+
+    @property
+    def _n(self) -> int:
+        """Free dofs of a plane."""
+        return len(self._rows.centre)
+
+    def _locate(self, x: Array) -> tuple[IntArray, Array]:
+        scaled = x / self.thickness
+        index = np.clip(np.floor(scaled).astype(np.int64), 0, self.n_slices - 1)
+        return index, scaled - index
+
+    @cached_property
+    def _place(self) -> IntArray:
+        """Final dof of each dof of the mesh, -1 on the clamped planes."""
+        n, planes = self._n, self.n_slices + 1
+        final = np.full(n * planes, -1, dtype=np.int64)
+        final[n : n * (planes - 1)] = self._assembled.rail_dofs
+        return final
+
+    @cached_property
+    def _assembled(self) -> SupportedRail:
+        piece, rows, n = self._section[1], self._rows, self._n
+        inner = self.n_slices - 1
+        stiffness, damping = _chain(piece.stiffness, inner), None
+        if isinstance(self.track.support, WinklerFoundation):
+            # integral of f f^T dx with f linear between planes
+            h = self.thickness
+            f = sp.csr_array(rows.foot[:, None] @ rows.foot[None, :])
+            weights = sp.diags_array(
+                [np.full(inner, 2 * h / 3), np.full(inner - 1, h / 6), np.full(inner - 1, h / 6)],
+                offsets=[0, 1, -1],
+            )
+            bed = sp.csr_array(sp.kron(weights, f))
+            k, c = self.track.support.values("Z")
+            stiffness, damping = stiffness + k * bed, c * bed
+        return add_supports(
+            _chain(piece.mass, inner),
+            damping,
+            stiffness,
+            np.repeat(self.thickness * np.arange(1, inner + 1), n),
+            self.track,
+            [self._pad_row(*ends) for ends in self.track.pad_footprints],
+        )
+
+    def _pad_row(self, first: float, last: float) -> PadRow:
+        """Average foot displacement over a footprint, linear between the planes."""
+        # brute force: 4000 midpoints, so that this check shares no integration with SolidTrack
+        x = first + (np.arange(4000) + 0.5) / 4000 * (last - first)
+        index, t = self._locate(x)
+        planes = np.bincount(index, 1 - t, self.n_slices + 1) / len(x)
+        planes += np.bincount(index + 1, t, self.n_slices + 1) / len(x)
+        row = (planes[1:-1, None] * self._rows.foot).ravel()
+        used = np.flatnonzero(row)
+        return PadRow(used, row[used])
+
+
+def _chain(block: Slice, inner: int) -> sp.csr_array:
+    """Equal slices in a row, both end planes held."""
+    ab = sp.csr_array(np.where(np.abs(block.ab) > 0, block.ab, 0.0))
+    shift = sp.diags_array([np.ones(inner - 1)], offsets=[1], shape=(inner, inner))
+    off = sp.kron(shift, ab)
+    return sp.csr_array(
+        sp.kron(sp.eye_array(inner), sp.csr_array(block.bb + block.aa)) + off + off.T
+    )
