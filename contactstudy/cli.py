@@ -18,7 +18,6 @@ app = App(
     name="contactstudy",
     help="How wrong the simple wheel-rail contact model is: point against surface contact.",
     version=__version__,
-    result_action="return_value",
 )
 
 Overrides = Annotated[
@@ -131,7 +130,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """
     tokens = list(sys.argv[1:] if arguments is None else arguments)
     try:
-        app(tokens, exit_on_error=False, print_error=False)
+        # Parsed and called apart, so that Ctrl-C in a command is ours to answer.
+        command, bound, _ = app.parse_args(tokens, exit_on_error=False, print_error=False)
+        command(*bound.args, **bound.kwargs)
     except cyclopts.CycloptsError as error:
         _complain(f"{error}\nTry 'contactstudy --help'.")
         return 2

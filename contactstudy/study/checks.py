@@ -66,7 +66,7 @@ def _irregularity(table: IrregularityTable, runs: Mapping[str, RunTable]) -> lis
             "irregularity.file: is missing; a measured irregularity needs a CSV file "
             "(--set irregularity.file=PATH)"
         )
-    if (table.file or table.measured_overlay) and not table.level_column:
+    if table.measured_file and not table.level_column:
         problems.append(
             "irregularity.level_column: is missing; name the column of the CSV with the level"
         )

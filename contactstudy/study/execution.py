@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from pathlib import Path
 
 import xarray as xr
 
@@ -53,7 +54,16 @@ def _surface(study: Study, run: str, table: SurfaceRun, progress: Progress | Non
 
 
 def peak_memory_mb() -> float:
-    """Peak resident memory of this process so far, in MB (1e6 bytes); nan where unknown."""
+    """Peak resident memory of this process so far, in MB (1e6 bytes); nan where unknown.
+
+    On Linux from ``/proc``: there ``getrusage`` also counts what the process that started this
+    one had in memory at that moment.
+    """
+    try:
+        status = Path("/proc/self/status").read_text("utf-8")
+        return int(status.split("VmHWM:")[1].split()[0]) * 1024 / 1e6
+    except (OSError, IndexError, ValueError):
+        pass
     try:
         import resource
     except ImportError:  # not a POSIX system

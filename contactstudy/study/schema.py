@@ -36,10 +36,9 @@ class Section(BaseModel):
         return {f.alias or k: dumped[k] for k, f in fields.items() if self.applicable(k)}
 
     def units(self) -> dict[str, str]:
-        """Key -> SI unit of all keys that apply and have one."""
-        fields = type(self).model_fields
-        found = {f.alias or k: q.unit_of(f) for k, f in fields.items() if self.applicable(k)}
-        return {key: unit for key, unit in found.items() if unit}
+        """Key -> SI unit of the keys in `resolved` that have one."""
+        fields = {f.alias or name: f for name, f in type(self).model_fields.items()}
+        return {key: unit for key in self.resolved() if (unit := q.unit_of(fields[key]))}
 
 
 # fmt: off

@@ -1,0 +1,261 @@
+"""Commands: exit status and message for every bad input, resuming, and Ctrl-C."""
+
+import importlib
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from contactstudy import cli
+from contactstudy.study import runner, store
+from contactstudy.study.results import read_results
+
+SHORT = """
+title = "A short one"
+[track]
+length = "6 m"
+[irregularity]
+terms = 50
+[journey]
+from = "1.2 m"
+to = "3 m"
+time_step = "0.2 ms"
+fade_in = "0.6 m"
+[runs.point]
+solver = "point"
+[runs.hertz]
+solver = "point"
+law = "hertz"
+"""
+
+
+def render(results, out_dir, reporter):
+    """Stands for figures and report, which have their own tests."""
+    (out_dir / "figures").mkdir(exist_ok=True)
+    (out_dir / "report.pdf").write_bytes(b"%PDF")
+
+
+@pytest.fixture
+def short(tmp_path, monkeypatch):
+    """Study file; drawing is left out."""
+    monkeypatch.setattr(runner, "render", render)
+    path = tmp_path / "short.toml"
+    path.write_text(SHORT)
+    return path
+
+
+def refused(capfd, *arguments: str | Path) -> str:
+    """Run a command that must end with status 2, one message and no traceback."""
+    assert cli.main([str(a) for a in arguments]) == 2
+    err = capfd.readouterr().err
+    assert err.startswith("contactstudy: ") and "Traceback" not in err
+    return err
+
+
+def test_studies_lists_names_and_titles(capsys):
+    assert cli.main(["studies"]) == 0
+    out = capsys.readouterr().out
+    assert "point_vs_surface    Point contact against surface contact" in out
+
+
+def test_check_prints_values_sizes_and_time_without_running(capsys, short, tmp_path):
+    assert cli.main(["check", str(short), "--set", "journey.speed=250 km/h"]) == 0
+    out = capsys.readouterr().out
+    assert "69.44444444" in out and "track.pad_stiffness" in out and "expected time" in out
+    # 41 nodes with 2 dofs, less 4 at the clamped ends, 11 sleepers, 3 of the vehicle: 92
+    assert "92" in out and "129" in out  # steps of 0.2 ms: 1.8 m at 69.4 m/s
+    assert [p.name for p in tmp_path.iterdir()] == ["short.toml"]
+
+
+@pytest.mark.parametrize(
+    ("setting", "message"),
+    [
+        ("track.pad_stifness=3", "did you mean 'pad_stiffness'"),
+        ("track.pad_stiffness=65 kg", "wrong unit 'kg'; allowed: N/m"),
+        ("track.pad_stiffness=-65 MN/m", "must be above 0 N/m"),
+        ("runs.point.elements_per_bay=0", "must be a whole number at least 1"),
+        ("journey.to=7 m", "journey.to = 7.0: must lie on the track, 0 to 6 m"),
+    ],
+)
+@pytest.mark.parametrize("command", ["check", "run"])
+def test_bad_values(capfd, short, tmp_path, command, setting, message):
+    out = tmp_path / "out"
+    extra = ["--out", out] if command == "run" else []
+    assert message in refused(capfd, command, short, "--set", setting, *extra)
+    assert not out.exists()
+
+
+def test_usage_errors(capfd, short, tmp_path):
+    assert "did you mean 'point_vs_surface'" in refused(capfd, "check", "point_vs_surfase")
+    assert "did you mean 'smooth_rail'" in refused(capfd, "reproduce", "smooth-rail")
+    assert 'Did you mean "check"' in refused(capfd, "chek", short)
+    assert "--out" in refused(capfd, "run", short)
+    assert "jobs = 0" in refused(capfd, "run", short, "--out", tmp_path / "o", "--jobs", "0")
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        ("x,z\n0,0.1\n0.25,abc\n0.5,0.2\n", "line 3, column 'z'"),
+        ("x,z\n0,0.1\n0.25,nan\n0.5,0.2\n", "line 3, column 'z'"),
+        ("x,z\n0,0.1\n0.5,0.2\n0.25,0.3\n", "falls below the position before"),
+        ("x,z\n0,0.1\n", "rows"),
+        ("a,z\n0,0.1\n", "x"),
+        (None, "no such file"),
+    ],
+)
+@pytest.mark.parametrize("command", ["check", "run"])
+def test_bad_csv(capfd, short, tmp_path, content, message, command):
+    csv = tmp_path / "level.csv"
+    if content is not None:
+        csv.write_text(content)
+    settings = [f"irregularity.file={csv}", "irregularity.spectrum=measured"]
+    settings += ["irregularity.level_column=z"]
+    text = SHORT.replace("terms = 50", "")
+    short.write_text(text)
+    arguments = [a for s in settings for a in ("--set", s)]
+    extra = ["--out", tmp_path / "out"] if command == "run" else []
+    err = refused(capfd, command, short, *arguments, *extra)
+    assert "level.csv" in err and message in err
+    assert not (tmp_path / "out" / "result.nc").exists()
+
+
+def test_unwritable_folder_is_refused_before_anything_runs(capfd, short, tmp_path, monkeypatch):
+    monkeypatch.setattr(runner, "run_tasks", lambda *a, **k: pytest.fail("must not compute"))
+    (tmp_path / "file").write_text("")
+    assert "cannot be written" in refused(capfd, "run", short, "--out", tmp_path / "file" / "out")
+
+
+@pytest.fixture(scope="module")
+def finished(tmp_path_factory):
+    """Folder with the results of the short study, computed once; tests work on copies."""
+    folder = tmp_path_factory.mktemp("finished")
+    (folder / "short.toml").write_text(SHORT)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(runner, "render", render)
+        assert cli.main(["run", str(folder / "short.toml"), "--out", str(folder / "out")]) == 0
+    return folder / "out"
+
+
+@pytest.fixture
+def out(finished, tmp_path):
+    return Path(shutil.copytree(finished, tmp_path / "out"))
+
+
+def test_what_a_run_writes(out):
+    results = read_results(out)
+    assert list(results.runs) == ["point", "hertz"] and results.reference == "point"
+    assert results.title == "A short one" and results.provenance["seed"] == 1
+    assert results.irregularity.spectrum.band == (0.08, 20.0)
+    force = results.runs["hertz"].contact_force
+    assert force.attrs["units"] == "N" and "position" in force.coords
+    assert float(force[0]) == pytest.approx(6869 * 9.81)
+    metrics = json.loads((out / "metrics.json").read_text())
+    assert set(metrics["runs"]["point"]) == {"dofs", "steps", "dt", "seconds", "peak_memory_mb"}
+    assert 30 < metrics["runs"]["point"]["peak_memory_mb"] < 2000
+    assert set(metrics["comparisons"]) == {"hertz"}
+
+
+def test_a_second_call_computes_and_draws_nothing(capfd, short, out, monkeypatch):
+    before = {p: p.read_bytes() for p in out.rglob("*") if p.is_file()}
+    monkeypatch.setattr(runner, "run_tasks", lambda *a, **k: pytest.fail("must not compute"))
+    monkeypatch.setattr(runner, "render", lambda *a, **k: pytest.fail("must not draw"))
+    assert cli.main(["run", str(short), "--out", str(out)]) == 0
+    assert "up to date" in capfd.readouterr().err
+    assert before == {p: p.read_bytes() for p in out.rglob("*") if p.is_file()}
+
+
+def test_a_missing_figure_or_report_is_made_again_from_finished_runs(short, out, monkeypatch):
+    (out / "report.pdf").unlink()
+    before = (out / "result.nc").read_bytes()
+    monkeypatch.setattr(runner, "run_tasks", lambda *a, **k: pytest.fail("must not compute"))
+    assert cli.main(["run", str(short), "--out", str(out)]) == 0
+    assert (out / "report.pdf").exists() and (out / "result.nc").read_bytes() == before
+
+
+def test_a_changed_value_computes_only_what_it_concerns(short, out):
+    first = {p.name for p in (out / "runs").glob("*.nc")}
+    setting = "runs.point.k_r=tangent"
+    assert cli.main(["run", str(short), "--out", str(out), "--set", setting]) == 0
+    new = {p.name for p in (out / "runs").glob("*.nc")} - first
+    assert len(new) == 1 and new.pop().startswith("point-")
+
+
+def test_a_damaged_run_is_found_out_and_computed_again(capfd, short, out):
+    reference = (out / "result.nc").read_bytes()
+    damaged = next((out / "runs").glob("hertz-*.nc"))
+    content = bytearray(damaged.read_bytes())
+    content[len(content) // 2] ^= 0xFF
+    damaged.write_bytes(content)
+    (out / "result.nc").write_bytes(b"")
+    assert cli.main(["run", str(short), "--out", str(out)]) == 0
+    assert f"{damaged}: is damaged" in capfd.readouterr().err
+    assert (out / "result.nc").read_bytes() == reference  # and the same bytes again
+
+
+def test_a_run_that_breaks_down_keeps_the_others(capfd, short, tmp_path, monkeypatch):
+    module = tmp_path / "breaking.py"
+    module.write_text(
+        "from contactstudy.exceptions import NumericalError\n"
+        "from contactstudy.study import runner\n"
+        "execute = runner.execute\n"
+        "def breaking(study, run, path, progress):\n"
+        "    if run == 'point':\n"
+        "        raise NumericalError('step 7 at X = 1.3 m: the force is not finite')\n"
+        "    execute(study, run, path, progress)\n"
+    )
+    monkeypatch.syspath_prepend(str(tmp_path))
+    breaking = importlib.import_module("breaking")
+    monkeypatch.setattr(runner, "execute", breaking.breaking)
+    out = tmp_path / "out"
+    assert cli.main(["run", str(short), "--out", str(out)]) == 1
+    err = capfd.readouterr().err
+    assert "run point: step 7 at X = 1.3 m: the force is not finite" in err
+    assert "finished runs are kept" in err and "Traceback" not in err
+    assert [p.name[:6] for p in (out / "runs").glob("*.nc")] == ["hertz-"]
+    assert not (out / "result.nc").exists()
+
+
+def test_interrupt_leaves_whole_files_and_the_next_call_goes_on(short, tmp_path):
+    """Ctrl-C as a terminal sends it: to the command and all its workers."""
+    text = SHORT.replace('"0.2 ms"', '"0.4 us"')  # the runs take minutes
+    short.write_text(text + '[runs.quick]\nsolver = "point"\ntime_step = "0.2 ms"\n')
+    out = tmp_path / "out"
+    process = subprocess.Popen(
+        [sys.executable, "-m", "contactstudy.cli", "run", str(short), "--out", str(out), "-j", "3"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
+    deadline = time.monotonic() + 60
+    while not list(out.glob("runs/quick-*.json")):
+        assert process.poll() is None, process.communicate()
+        assert time.monotonic() < deadline
+        time.sleep(0.05)
+    os.killpg(process.pid, signal.SIGINT)
+    _, err = process.communicate(timeout=30)
+    assert process.returncode == 130
+    assert "interrupted" in err and "Traceback" not in err and err.count("\n") == 1
+    left = sorted(p.name for p in out.rglob("*") if p.is_file())
+    assert len(left) == 2 and all(name.startswith("quick-") for name in left)
+    path = next(out.glob("runs/quick-*.nc"))
+    run, damage = store.load_run(path)
+    assert damage == "" and isinstance(run.data, xr.Dataset)
+    assert np.all(np.isfinite(run.data.contact_force))
+
+
+def test_reproduce_puts_named_studies_below_the_folder(short, tmp_path, monkeypatch, capfd):
+    monkeypatch.chdir(tmp_path)
+    assert cli.main(["reproduce", "paper_irregularity"]) == 0
+    results = read_results(tmp_path / "reports/out/paper_irregularity")
+    assert not results.runs and results.irregularity.estimate is not None
+    assert "paper_irregularity" in capfd.readouterr().out
