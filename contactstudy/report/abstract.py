@@ -90,14 +90,16 @@ def _verdict(results: StudyResults) -> str:
     papers = papers_scheme(results)
     told = [papers] if papers in errors else []
     told += [name for name in (ordered[0], ordered[-1]) if name not in told]
-    text = f"The reference is {_model(results, str(results.reference))}."
+    text = f"The reference is the run {_model(results, str(results.reference))}."
     for name in told:
         total, dynamic, largest = errors[name]
         if name == papers:
-            text += f" The contact force of the paper's scheme, {_model(results, name)},"
+            text += f" The contact force of the paper's scheme, the run {_model(results, name)},"
         else:
             rank = "lowest" if name == ordered[0] else "highest"
-            text += f" The {rank} error is that of {_model(results, name)}, whose contact force"
+            text += (
+                f" The {rank} error is that of the run {_model(results, name)}, whose contact force"
+            )
         text += (
             f" {grade(dynamic)}: the relative L₂ error is {percent(dynamic)} % of the dynamic "
             f"part, {percent(total)} % of the total force, and the forces are at most "
@@ -120,7 +122,7 @@ def papers_scheme(results: StudyResults) -> str | None:
 
 def _model(results: StudyResults, name: str) -> str:
     rail, contact = describe(results, name)
-    return f"{label(name)} (contact: {contact}; rail: {rail})"
+    return f"“{label(name)}” (contact: {contact}; rail: {rail})"
 
 
 def _cost(results: StudyResults) -> str:

@@ -118,8 +118,8 @@ def _errors(results: StudyResults) -> list[Content]:
         "The errors are given twice, relative to the whole signal and relative to its dynamic "
         "part about the static value: whether two models look almost identical depends on which. "
         "M, P and C are the errors of magnitude, phase and both of Sprague and Geers, of the "
-        f"dynamic part. The words of the abstract follow the error of the dynamic part: {grades}, else "
-        f"“{GRADES[-1][1]}”."
+        f"dynamic part. The words of the abstract follow the error of the dynamic part: {grades}, "
+        f"else “{GRADES[-1][1]}”."
     )
     return [{"title": "Errors", "blocks": [note, *tables]}]
 

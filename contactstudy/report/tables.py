@@ -12,6 +12,7 @@ from contactstudy.study.results import StudyResults
 from contactstudy.study.schema import SECTIONS
 
 Block = dict[str, Any]
+K_R = "k\N{LATIN SUBSCRIPT SMALL LETTER R}"
 
 _TITLES = {
     "irregularity": "Irregularity",
@@ -29,7 +30,6 @@ _NAMES = {
     "layer": "layer below the sleepers",
     "static_load": "static load",
     "pressure_at": "positions of stored pressure fields",
-    "k_r": "k_r",
 }
 
 
@@ -108,11 +108,11 @@ def describe(results: StudyResults, name: str) -> tuple[str, str]:
         return rail, "point, Hertz"
     k_r = run.get("k_r")
     if isinstance(k_r, str):
-        return rail, f"point, k_r {k_r}"
+        return rail, f"point, {K_R} {k_r}"
     if k_r is None:
         return rail, "point"
     value, unit = quantity(float(k_r), "N/m")
-    return rail, f"point, k_r = {value} {unit}"
+    return rail, f"point, {K_R} = {value} {unit}"
 
 
 def run_table(results: StudyResults, timings: bool) -> Block:
