@@ -43,6 +43,10 @@ class RailCell:
         cells leave out.
     centre_residual : ndarray (2*ns + 1, (2*ns + 1)*ny)
         What surface loads add to the section mean beyond the reduced cells, in m/N.
+    section_map : ndarray (2*k, m)
+        Displacements (y, z in turn) of the k nodes of an interface plane.
+    section_residual : ndarray (2*k, (2*ns + 1)*ny)
+        What surface loads on two cells add to those of the plane between them, in m/N.
     """
 
     recipe: CellRecipe
@@ -54,6 +58,8 @@ class RailCell:
     foot_map: Array
     residual: Array
     centre_residual: Array
+    section_map: Array
+    section_residual: Array
 
 
 def section_of(recipe: CellRecipe) -> tuple[SectionMesh, ExtrudedSlice, SectionRows]:
@@ -89,9 +95,9 @@ def condense(recipe: CellRecipe) -> RailCell:
         If a pivot of the elimination is not positive definite.
     """
     _, piece, rows = section_of(recipe)
-    ns, ny, n = recipe.n_slices, len(rows.surface_y), len(rows.centre)
+    ns, ny, m = recipe.n_slices, len(rows.surface_y), recipe.interface_modes
     response = window_response(piece.stiffness, ns, rows)
-    basis = interface_basis(response, rows, piece.free % 3 == 0, recipe.interface_modes)
+    basis = interface_basis(response, rows, piece.free % 3 == 0, m)
     shapes = _cell_shapes(piece, ns, basis, recipe.internal_modes)
     stiffness = _project(piece.stiffness, shapes)
     mass = _project(piece.mass, shapes)
@@ -100,15 +106,17 @@ def condense(recipe: CellRecipe) -> RailCell:
     foot_map = np.stack([rows.foot @ T for T in shapes])
 
     # residual = exact window flexibility - flexibility of the same window of reduced cells
-    F = _reduced_window(stiffness, recipe.interface_modes)
-    pair_surface = _pair(surface_map.reshape(ns + 1, ny, -1), recipe.interface_modes)
-    pair_centre = _pair(centre_map[:, None], recipe.interface_modes)[:, 0]
+    F = _reduced_window(stiffness, m)
+    pair_surface = pair_rows(surface_map, m)
+    pair_centre = pair_rows(centre_map[:, None], m)[:, 0]
     exact = _by_reflection(response.surface, ns, ny)
     exact_centre = _by_reflection(response.centre[:, None], ns, ny)
     S = pair_surface.reshape(-1, F.shape[0])
     residual = exact.reshape(S.shape[0], -1) - S @ F @ S.T
+    # the same for all nodes of the plane between the two cells, for drawing the section
+    plane = _by_reflection(response.interfaces[None, 2, :, : (ns + 1) * ny], ns, ny)[0]
+    drawn = _transverse(piece)
     centre_residual = exact_centre[:, 0].reshape(2 * ns + 1, -1) - pair_centre @ F @ S.T
-    assert n == shapes[0].shape[0]
     return RailCell(
         recipe,
         stiffness,
@@ -119,6 +127,8 @@ def condense(recipe: CellRecipe) -> RailCell:
         foot_map,
         0.5 * (residual + residual.T),
         centre_residual,
+        drawn @ basis,
+        drawn @ plane - drawn @ basis @ (F @ S.T)[len(stiffness) - m : len(stiffness)],
     )
 
 
@@ -193,19 +203,36 @@ def _reduced_window(stiffness: Array, m: int) -> Array:
     return np.asarray(np.linalg.solve(inner, rhs)[pair])
 
 
-def _pair(cell_map: Array, m: int) -> Array:
-    """Rows (ns + 1, k, nd) of one cell as rows (2*ns + 1, k, nd') of two neighbours."""
+def pair_rows(cell_map: Array, m: int) -> Array:
+    """Rows (ns + 1, k, nd) of one cell as rows (2*ns + 1, k, 2*nd - m) of two neighbours.
+
+    Both cells speak of the same interface on the middle plane; the second one's rows stand
+    there.
+    """
     planes, k, nd = cell_map.shape
     step = nd - m
     out = np.zeros((2 * planes - 1, k, 2 * step + m))
-    out[:planes, :, :nd] = cell_map
+    out[: planes - 1, :, :nd] = cell_map[:-1]
     out[planes - 1 :, :, step:] = cell_map
     return out
 
 
+def _transverse(piece: ExtrudedSlice) -> sp.csr_array:
+    """Picks u_y, u_z of every node in turn from a plane's free degrees of freedom."""
+    node, component = piece.free // 3, piece.free % 3
+    kept = np.flatnonzero(component > 0)
+    rows = 2 * node[kept] + component[kept] - 1
+    shape = (2 * piece.n_nodes, len(piece.free))
+    return sp.csr_array((np.ones(len(kept)), (rows, kept)), shape=shape)
+
+
 def _by_reflection(response: Array, ns: int, ny: int) -> Array:
-    """Responses to loads on all planes of the pair from those on its first half."""
+    """Responses to loads on all planes of the pair from those on its first half.
+
+    The response of the mirrored plane is that to the mirrored load; axial components, which
+    would change their sign, must not be used.
+    """
     planes, k, _ = response.shape
     first = response.reshape(planes, k, ns + 1, ny)
     second = first[::-1, :, ns - 1 :: -1] if ns > 0 else first[:, :, :0]
-    return np.concatenate([first, second], axis=2).reshape(planes, k, planes * ny)
+    return np.concatenate([first, second], axis=2).reshape(planes, k, -1)

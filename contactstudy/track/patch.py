@@ -44,3 +44,30 @@ class SurfacePatch:
     y: Array
     centre_map: Array
     centre_residual: Array
+
+
+@dataclass(frozen=True)
+class SectionResponse:
+    """Displacement of a section plane: ``map @ u[dofs] + residual @ f``, for drawing it.
+
+    Attributes
+    ----------
+    position : float
+        X of the plane [m].
+    nodes : ndarray (k, 2)
+        y, z [m], z = 0 on top of the rail.
+    quads : ndarray (q, 4)
+    dofs : ndarray (m,)
+        Dofs of the track.
+    map : ndarray (k, 2, m)
+        Displacement (y, z) of each node.
+    residual : ndarray (k, 2, nodes)
+        What nodal forces of the `SurfacePatch` at the same place add [m/N].
+    """
+
+    position: float
+    nodes: Array
+    quads: NDArray[np.int64]
+    dofs: NDArray[np.int64]
+    map: Array
+    residual: Array

@@ -9,9 +9,10 @@ from numpy.typing import NDArray
 
 from contactstudy.exceptions import InputError
 from contactstudy.solids.cell import RailCell, section_of
+from contactstudy.solids.pair import CellPair, cell_pair
 from contactstudy.solids.recipe import CellRecipe
 from contactstudy.track.model import Rail, Track, WinklerFoundation
-from contactstudy.track.patch import SurfacePatch
+from contactstudy.track.patch import SectionResponse, SurfacePatch
 from contactstudy.track.supports import PadRow, SupportedRail, add_supports
 
 Array = NDArray[np.float64]
@@ -152,38 +153,66 @@ class SolidTrack:
         InputError
             If the patch does not fit on two cells around X or leaves the track.
         """
-        h, ns = self.thickness, self.cell.recipe.n_slices
-        pair = min(max(int(np.floor(x / self.cell.recipe.length - 0.5)), 0), self.n_cells - 2)
-        local = (x - pair * self.cell.recipe.length) / h
-        first = int(np.floor(local - half_length / h))
-        last = first + int(np.ceil(2 * half_length / h)) + 1
-        if first < 0 or last > 2 * ns:
-            raise InputError(
-                f"contact patch at X = {x:.4f} m with half length {half_length} m does not lie "
-                f"within two rail cells of {self.cell.recipe.length} m on the track"
-            )
+        pair, local, planes = self._planes(x, half_length)
         dofs, held = self._pair_dofs(pair)
-        planes = slice(first, last + 1)
-        surface, residual, centre, centre_residual = self._pair_maps
-        ny, count = surface.shape[1], last + 1 - first
-        rows = surface[planes].reshape(count * ny, -1)
-        at = min(max(int(np.floor(local)), 0), 2 * ns - 1)
+        maps, h = self._pair, self.thickness
+        nodes = (planes.stop - planes.start) * maps.surface.shape[1]
+        rows = maps.surface[planes].reshape(nodes, -1)
+        at = min(max(int(np.floor(local)), 0), len(maps.centre) - 2)
         t = local - at
-        mean = (1 - t) * centre[at] + t * centre[at + 1]
+        mean = (1 - t) * maps.centre[at] + t * maps.centre[at + 1]
+        mean_residual = (1 - t) * maps.centre_residual[at] + t * maps.centre_residual[at + 1]
         return SurfacePatch(
             key=pair,
             dofs=dofs,
             map=np.where(held, 0.0, rows) if held.any() else rows,
-            residual=residual[planes, :, planes].reshape(count * ny, count * ny),
-            x=np.asarray(
-                np.arange(first, last + 1) * h + pair * self.cell.recipe.length, dtype=float
-            ),
+            residual=maps.residual[planes, :, planes].reshape(nodes, nodes),
+            x=pair * self.cell.recipe.length
+            + h * np.arange(planes.start, planes.stop, dtype=float),
             y=self.cell.surface_y,
             centre_map=np.where(held, 0.0, mean),
-            centre_residual=(
-                (1 - t) * centre_residual[at, planes] + t * centre_residual[at + 1, planes]
-            ).ravel(),
+            centre_residual=mean_residual[planes].ravel(),
         )
+
+    def section(self, x: float, half_length: float) -> SectionResponse:
+        """Displacement of the rail's section at the interface plane nearest to X.
+
+        Parameters
+        ----------
+        x, half_length : float
+            As for `patch`, whose nodal forces the residual belongs to.
+
+        Returns
+        -------
+        SectionResponse
+        """
+        pair, _, planes = self._planes(x, half_length)
+        dofs, held = self._pair_dofs(pair)
+        middle = slice(self._step, self._step + self.cell.recipe.interface_modes)
+        mesh, _, _ = section_of(self.cell.recipe)
+        k = len(mesh.nodes)
+        return SectionResponse(
+            position=(pair + 1) * self.cell.recipe.length,
+            nodes=mesh.nodes,
+            quads=mesh.quads,
+            dofs=dofs[middle],
+            map=np.where(held[middle], 0.0, self.cell.section_map).reshape(k, 2, -1),
+            residual=self._pair.section_residual[:, :, planes].reshape(k, 2, -1),
+        )
+
+    def _planes(self, x: float, half_length: float) -> tuple[int, float, slice]:
+        """First of the two cells around X, X in slices from its start, planes of a patch."""
+        length, h = self.cell.recipe.length, self.thickness
+        pair = min(max(int(np.floor(x / length - 0.5)), 0), self.n_cells - 2)
+        local = (x - pair * length) / h
+        first = int(np.floor(local - half_length / h))
+        stop = first + int(np.ceil(2 * half_length / h)) + 2
+        if first < 0 or stop > 2 * self.cell.recipe.n_slices + 1:
+            raise InputError(
+                f"contact patch at X = {x:.4f} m with half length {half_length} m does not lie "
+                f"within two rail cells of {length} m on the track"
+            )
+        return pair, local, slice(first, stop)
 
     @property
     def thickness(self) -> float:
@@ -216,25 +245,8 @@ class SolidTrack:
         return np.where(held, dofs.max(), dofs), held
 
     @cached_property
-    def _pair_maps(self) -> tuple[Array, Array, Array, Array]:
-        """Surface and centre rows, and residuals, of two neighbouring cells by plane."""
-        ns, m = self.cell.recipe.n_slices, self.cell.recipe.interface_modes
-        ny, nd = self.cell.surface_map.shape[1:]
-        planes, width = 2 * ns + 1, 2 * nd - m
-        surface, centre = np.zeros((planes, ny, width)), np.zeros((planes, width))
-        for start, columns in ((0, slice(0, nd)), (ns, slice(nd - m, width))):
-            surface[start : start + ns + 1, :, columns] = self.cell.surface_map
-            centre[start : start + ns + 1, columns] = self.cell.centre_map
-        # on the middle plane both cells speak of the same interface: the second one's rows
-        # stand there, the first one's must go
-        surface[ns, :, : nd - m] = 0.0
-        centre[ns, : nd - m] = 0.0
-        return (
-            surface,
-            self.cell.residual.reshape(planes, ny, planes, ny),
-            centre,
-            self.cell.centre_residual.reshape(planes, planes, ny),
-        )
+    def _pair(self) -> CellPair:
+        return cell_pair(self.cell)
 
     @cached_property
     def _held(self) -> IntArray:

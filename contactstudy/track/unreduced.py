@@ -136,6 +136,15 @@ class UnreducedTrack:
             centre_residual=np.zeros(len(planes) * ny),
         )
 
+    def plane_displacement(self, x: float, u: Array) -> Array:
+        """Displacement (k, 3) of the nodes of the plane nearest to X."""
+        section, piece, _ = self._section
+        plane = round(x / self.thickness)
+        dofs = self._place[plane * self._n : (plane + 1) * self._n]
+        moved = np.zeros(3 * len(section.nodes))
+        moved[piece.free] = np.where(dofs < 0, 0.0, u[dofs])
+        return moved.reshape(-1, 3)
+
     @cached_property
     def _section(self) -> tuple[SectionMesh, ExtrudedSlice, SectionRows]:
         return section_of(self.recipe)

@@ -137,3 +137,19 @@ def _inverse(track):
 
     factor = Factor(track.stiffness)
     return LinearOperator((track.n_dofs,) * 2, matvec=lambda b: factor.solve(b.ravel()))
+
+
+def test_deformed_section_is_that_of_the_full_mesh():
+    track, x = short_track(WinklerFoundation(100e6)), 0.598
+    full, reduced = UnreducedTrack(track, RECIPE), SolidTrack(track, cell())
+    moved = []
+    force = -np.linspace(1.0, 2.0, len(reduced.patch(x, HALF_LENGTH).map))
+    for t in (full, reduced):
+        p = t.patch(x, HALF_LENGTH)
+        load = np.zeros(t.n_dofs)
+        np.add.at(load, p.dofs, p.map.T @ force)
+        moved.append(Factor(t.stiffness).solve(load))
+    s = reduced.section(x, HALF_LENGTH)
+    got = s.map @ moved[1][s.dofs] + s.residual @ force
+    expected = full.plane_displacement(s.position, moved[0])[:, 1:]
+    assert np.abs(got - expected).max() < 1e-3 * np.abs(expected).max()
