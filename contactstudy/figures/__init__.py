@@ -20,6 +20,8 @@ def drawings(results: StudyResults) -> list[Drawing]:
 def write_figures(results: StudyResults, out_dir: Path) -> list[Path]:
     """Draw all figures into out_dir/figures, each as PDF and as PNG.
 
+    Those of a companion study go into out_dir/<companion>/figures.
+
     Parameters
     ----------
     results : StudyResults
@@ -37,4 +39,6 @@ def write_figures(results: StudyResults, out_dir: Path) -> list[Path]:
     with drawing():
         for made in drawings(results):
             written += save(made.draw(), folder, made.name)
+    for companion in results.companions:
+        written += write_figures(companion, Path(out_dir) / companion.name)
     return written

@@ -45,8 +45,6 @@ def write_report(results: StudyResults, out_dir: Path, timings: bool = False) ->
         for name in _TEMPLATE:
             shutil.copyfile(resource("report", name), root / name)
         _gather(results, out_dir, root / "figures")
-        for companion in results.companions:
-            _gather(companion, out_dir / companion.name, root / "figures" / companion.name)
         data = json.dumps(content(results, timings), ensure_ascii=False, allow_nan=False)
         (root / "data.json").write_text(data, "utf-8")
         pdf = typst.compile(
@@ -60,10 +58,12 @@ def write_report(results: StudyResults, out_dir: Path, timings: bool = False) ->
 
 
 def _gather(results: StudyResults, out_dir: Path, folder: Path) -> None:
-    """Copy the PDF figures of a study into `folder`, having drawn them if one is missing."""
+    """Copy the PDF figures of a study and its companions, having drawn them if one is missing."""
     names = [made.name for made in drawings(results)]
     if not all((out_dir / "figures" / f"{name}.pdf").is_file() for name in names):
         write_figures(results, out_dir)
     folder.mkdir(parents=True, exist_ok=True)
     for name in names:
         shutil.copyfile(out_dir / "figures" / f"{name}.pdf", folder / f"{name}.pdf")
+    for companion in results.companions:
+        _gather(companion, out_dir / companion.name, folder / companion.name)
