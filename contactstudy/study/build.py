@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from contactstudy import integrators
 from contactstudy.contact.hertz import HertzContact, contact_modulus, hertz_contact
 from contactstudy.contact.laws import ContactLaw, HertzSpring, LinearSpring, RigidContact
+from contactstudy.contact.press import tangent_stiffness
 from contactstudy.profiles.rail import rail_profile
 from contactstudy.solids.cache import cached
 from contactstudy.solids.cell import RailCell, condense
 from contactstudy.solids.recipe import CellRecipe
+from contactstudy.solids.wheel import WheelFlexibility, WheelRecipe, elastic_wheel, rigid_wheel
+from contactstudy.solids.wheel_section import WheelDimensions
 from contactstudy.solvers.journey import Journey
+from contactstudy.solvers.surface import PRESS_LOADS, geometry_press
 from contactstudy.study.schema import PointRun, RunTable, Study
 from contactstudy.track.model import (
     Ballast,
@@ -23,6 +29,9 @@ from contactstudy.track.model import (
 from contactstudy.track.solid import SolidTrack, solid_rail
 from contactstudy.vehicle import Vehicle, bare_wheel, wheel_column
 
+RAIL_MARGIN = 0.002
+"""m, by which the rail's fine running surface reaches beyond the wheel's contact points."""
+
 
 def recipe(study: Study) -> CellRecipe:
     """Recipe of the solid rail's cell; beams take their section from the same mesh."""
@@ -31,11 +40,26 @@ def recipe(study: Study) -> CellRecipe:
         profile=track.rail,
         size=solid.mesh_size,
         length=solid.cell_length,
+        contact_half_width=solid.contact_half_width + RAIL_MARGIN,
         interface_modes=solid.interface_modes,
         internal_modes=solid.internal_modes,
         youngs_modulus=track.youngs_modulus,
         poisson_ratio=track.poisson_ratio,
         density=track.density,
+    )
+
+
+def wheel_recipe(study: Study) -> WheelRecipe:
+    """Recipe of the meshed wheel: same steel as the rail."""
+    track, solid = study.track, study.solid
+    return WheelRecipe(
+        rail_profile=track.rail,
+        dimensions=WheelDimensions(radius=study.vehicle.wheel_radius),
+        size=solid.mesh_size,
+        contact_half_length=solid.contact_half_length,
+        contact_half_width=solid.contact_half_width,
+        youngs_modulus=track.youngs_modulus,
+        poisson_ratio=track.poisson_ratio,
     )
 
 
@@ -100,6 +124,14 @@ def solid_track(study: Study, described: Track) -> SolidTrack:
     return SolidTrack(described, cached(condense, RailCell, recipe(study)))
 
 
+def wheel(study: Study) -> WheelFlexibility:
+    """The meshed wheel, condensed or taken from the cache."""
+    made = wheel_recipe(study)
+    if study.solid.wheel == "rigid":
+        return rigid_wheel(made)
+    return cached(elastic_wheel, WheelFlexibility, made)
+
+
 def vehicle(study: Study) -> Vehicle:
     """The vehicle of all runs of a study."""
     table = study.vehicle
@@ -148,12 +180,24 @@ def hertz(study: Study) -> HertzContact:
     return hertz_contact(load, modulus, study.vehicle.wheel_radius, crown)
 
 
-def contact_law(study: Study, run: PointRun) -> ContactLaw:
-    """The contact law of a point run."""
-    if run.law == "hertz":
+def pressed_stiffness(study: Study, described: Track) -> float:
+    """Tangent stiffness in N/m of the study's meshed wheel on its meshed rail, at static load."""
+    load = float(vehicle(study).static_loads[0])
+    loads = np.asarray(PRESS_LOADS) * load
+    curve = geometry_press(solid_track(study, described), wheel(study), loads, study.solid.penalty)
+    return tangent_stiffness(curve, load)
+
+
+def contact_law(study: Study, run: str, described: Track) -> ContactLaw:
+    """The contact law of a point run on the track `described`."""
+    table = study.runs[run]
+    assert isinstance(table, PointRun)
+    if table.law == "hertz":
         return HertzSpring(hertz(study).stiffness)
-    if run.k_r == "rigid":
+    if table.k_r == "rigid":
         return RigidContact()
-    if run.k_r == "tangent":
+    if study.presses(run):
+        return LinearSpring(pressed_stiffness(study, described))
+    if table.k_r in ("tangent", "hertz_tangent"):
         return LinearSpring(hertz(study).tangent_stiffness)
-    return LinearSpring(float(run.k_r))
+    return LinearSpring(float(table.k_r))

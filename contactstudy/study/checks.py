@@ -47,8 +47,12 @@ def combined(sections: Mapping[str, Any], runs: Mapping[str, RunTable]) -> list[
         problems += _journey(journey, runs)
     if journey is not None and track is not None:
         problems += _journey_on_track(journey, track)
-    if solid is not None and track is not None and any(r.needs_solid for r in runs.values()):
-        problems += _solid_on_track(solid, track)
+    meshed = any(r.needs_solid for r in runs.values())
+    pressed = any(isinstance(r, PointRun) and r.k_r == "tangent" for r in runs.values())
+    if solid is not None and track is not None and (meshed or pressed):
+        problems += _solid_on_track(solid, track, meshed)
+    if solid is not None and journey is not None and meshed and journey.start < journey.end:
+        problems += _solid_on_journey(solid, journey)
     return problems
 
 
@@ -117,8 +121,10 @@ def _journey_on_track(journey: JourneyTable, track: TrackTable) -> list[str]:
     return [complaint(k, x, where) for k, x in points.items() if x > track.length]
 
 
-def _solid_on_track(solid: SolidTable, track: TrackTable) -> list[str]:
+def _solid_on_track(solid: SolidTable, track: TrackTable, meshed: bool) -> list[str]:
     problems = []
+    if track.rail == "given" and not meshed:
+        return []  # the tangent then is Hertz's
     if track.rail == "given":
         problems.append(
             complaint("track.rail", "given", 'surface contact needs a rail with a profile: "60E1"')
@@ -131,6 +137,15 @@ def _solid_on_track(solid: SolidTable, track: TrackTable) -> list[str]:
         allowed = f"must be at least 4 elements of solid.mesh_size, {4 * solid.mesh_size:g} m"
         problems.append(complaint("solid.cell_length", solid.cell_length, allowed))
     return problems
+
+
+def _solid_on_journey(solid: SolidTable, journey: JourneyTable) -> list[str]:
+    where = f"the wheel must pass it, {journey.start:g} to {journey.end:g} m"
+    return [
+        complaint(f"solid.pressure_at.{i}", x, where)
+        for i, x in enumerate(solid.pressure_at)
+        if not journey.start <= x <= journey.end
+    ]
 
 
 def runs(tables: Mapping[str, RunTable]) -> list[str]:

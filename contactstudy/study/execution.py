@@ -7,6 +7,7 @@ from pathlib import Path
 
 import xarray as xr
 
+from contactstudy.solids.cache import entry_path
 from contactstudy.study import build
 from contactstudy.study.roughness import irregularity_of
 from contactstudy.study.schema import PointRun, Study, SurfaceRun
@@ -42,7 +43,7 @@ def _point(study: Study, run: str, table: PointRun, progress: Progress | None) -
         rail_theory="timoshenko" if table.rail == "timoshenko" else "euler",
         elements_per_bay=table.elements_per_bay,
         local_compliance=table.local_compliance,
-        law=build.contact_law(study, table),
+        law=build.contact_law(study, run, track),
         direction=table.direction,
         integrator=build.integrator(table),
         progress=progress,
@@ -50,7 +51,33 @@ def _point(study: Study, run: str, table: PointRun, progress: Progress | None) -
 
 
 def _surface(study: Study, run: str, table: SurfaceRun, progress: Progress | None) -> xr.Dataset:
-    raise NotImplementedError
+    from contactstudy.solvers.surface import surface_contact
+
+    return surface_contact(
+        build.solid_track(study, build.track(study)),
+        build.wheel(study),
+        build.vehicle(study),
+        irregularity_of(study, table.irregularity == "smooth"),
+        build.journey(study, run),
+        penalty=study.solid.penalty,
+        pressure_at=study.solid.pressure_at,
+        integrator=build.integrator(table),
+        progress=progress,
+    )
+
+
+def condense_body(study: Study, body: str, progress: Progress | None = None) -> None:
+    """Condense the "rail" or the "wheel" of a study into the cache."""
+    if body == "rail":
+        build.solid_track(study, build.track(study))
+    else:
+        build.wheel(study)
+
+
+def is_condensed(study: Study, body: str) -> bool:
+    """Whether the cache has the "rail" or the "wheel" of a study."""
+    made = build.recipe(study) if body == "rail" else build.wheel_recipe(study)
+    return entry_path(made).exists()
 
 
 def peak_memory_mb() -> float:

@@ -42,7 +42,8 @@ InternalModes = Annotated[int, BeforeValidator(Limits("", at_least=0, at_most=40
 
 CONTACT_STIFFNESS = Limits("N/m", above=0.0)
 ContactStiffness = Annotated[
-    float | str, BeforeValidator(one_of_or(("tangent", "rigid"), CONTACT_STIFFNESS))
+    float | str,
+    BeforeValidator(one_of_or(("tangent", "hertz_tangent", "rigid"), CONTACT_STIFFNESS)),
 ]
 
 

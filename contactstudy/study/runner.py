@@ -186,10 +186,12 @@ def compute(plan: Plan, jobs: int, reporter: Reporter) -> None:
     NumericalError or InputError
         Listing the runs that failed, when the others are finished.
     """
-    tasks, labels, meshes = [], {}, dict[str, str]()
+    from contactstudy.study.execution import condense_body, is_condensed
+
+    tasks, labels, bodies = [], {}, dict[str, Task]()
     for one in plan.all:
         ensure_writable(one.out_dir / store.STORE)
-        for name, run in one.study.runs.items():
+        for name in one.study.runs:
             path = store.run_path(one.out_dir, name, one.run_key(name))
             finished, damage = store.load_run(path)
             if damage:
@@ -197,17 +199,19 @@ def compute(plan: Plan, jobs: int, reporter: Reporter) -> None:
             if finished is not None:
                 continue
             label = name if one is plan else f"{one.study.name}: {name}"
-            # The first run on a mesh condenses and caches its cell; the others wait for that.
-            mesh = store.digest(one.study.solid.resolved())
-            after = (meshes[mesh],) if run.needs_solid and mesh in meshes else ()
-            if run.needs_solid:
-                meshes.setdefault(mesh, label)
+            needs = [b for b in one.study.bodies(name) if not is_condensed(one.study, b)]
+            for body in needs:
+                # Studies of one report share their bodies, as a rule; a run makes what is lacking.
+                task = Task(f"condensing the {body}", condense_body, (one.study, body))
+                bodies.setdefault(task.name, task)
+            after = tuple(f"condensing the {body}" for body in needs)
             tasks.append(Task(label, execute, (one.study, name, path), after))
             labels[label] = path
     if not tasks:
         return
     # The long ones first, so that the short ones fill the gaps.
     tasks.sort(key=lambda task: not task.arguments[0].runs[task.arguments[1]].needs_solid)
+    tasks = [*bodies.values(), *tasks]
     for task in tasks:
         reporter.begin(task.name, 0)
 

@@ -200,6 +200,8 @@ class SolidTable(Section):
     cell_length: q.CellLength = 0.1
     interface_modes: q.InterfaceModes = 14
     internal_modes: q.InternalModes = 6
+    contact_half_length: q.Length = 0.012
+    contact_half_width: q.Length = 0.008
     penalty: q.Penalty = 1e16
     wheel: Literal["elastic", "rigid"] = "elastic"
     pressure_at: tuple[q.Position, ...] = ()
@@ -231,7 +233,11 @@ class RunTable(Section):
 
 
 class PointRun(RunTable):
-    """A run with ``solver = "point"``: the paper's section 3.1, or eq. (7) with ``law``."""
+    """A run with ``solver = "point"``: the paper's section 3.1, or eq. (7) with ``law``.
+
+    ``k_r`` is a number, "tangent" (of the static press of the very wheel and rail that are
+    meshed, at the static load), "hertz_tangent" (of Hertz's closed form) or "rigid".
+    """
 
     solver: Literal["point"] = "point"
     rail: Literal["euler", "timoshenko", "solid"] = "euler"
@@ -316,6 +322,19 @@ class Study:
         """Whether any run is on the meshed rail."""
         return any(run.needs_solid for run in self.runs.values())
 
+    def presses(self, run: str) -> bool:
+        """Whether a run takes its contact stiffness from a press of the meshed bodies."""
+        table = self.runs[run]
+        pressed = isinstance(table, PointRun) and table.law == "linear" and table.k_r == "tangent"
+        return pressed and self.track.rail != "given"
+
+    def bodies(self, run: str) -> tuple[str, ...]:
+        """Condensed bodies that a run needs: "rail", "wheel"."""
+        surface = isinstance(self.runs[run], SurfaceRun)
+        rail = self.runs[run].needs_solid or self.presses(run)
+        wheel = (surface or self.presses(run)) and self.solid.wheel == "elastic"
+        return ("rail",) * rail + ("wheel",) * wheel
+
     def time_step(self, run: str) -> float:
         """Time step of a run in s: its own or the journey's."""
         own = self.runs[run].time_step
@@ -343,4 +362,5 @@ class Study:
     def _used(self) -> list[str]:
         if not self.runs:
             return ["irregularity", "track", "journey"]
-        return [key for key in SECTIONS if key != "solid" or self.needs_solid]
+        meshed = any(self.bodies(run) for run in self.runs)
+        return [key for key in SECTIONS if key != "solid" or meshed]

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from types import TracebackType
 
+from rich.box import SIMPLE
 from rich.console import Console
 from rich.progress import (
     BarColumn,
@@ -87,15 +88,17 @@ class TerminalReporter:
             self._bars.update(task, completed=1, total=1)
 
 
+_CAPTION = "error: relative L2 of the contact force, of the total and of its dynamic part"
+
+
 def print_summary(results: StudyResults, out_dir: Path, console: Console) -> None:
     """Print what each run cost, how far it is from the reference, and where everything is."""
     runs = results.metrics.get("runs", {})
     if runs:
-        table = Table(title=results.title)
-        for heading in ("run", "dofs", "steps", "set-up (s)", "stepping (s)", "memory (MB)"):
-            table.add_column(heading, justify="left" if heading == "run" else "right")
-        table.add_column("force error, total", justify="right")
-        table.add_column("force error, dynamic", justify="right")
+        table = Table(title=results.title, box=SIMPLE, caption=_CAPTION)
+        table.add_column("run", no_wrap=True)
+        for heading in ("dofs", "steps", "set-up s", "steps s", "MB", "error", "dynamic"):
+            table.add_column(heading, justify="right", no_wrap=True)
         for name, run in runs.items():
             force = results.metrics["comparisons"].get(name, {}).get("contact_force", {})
             table.add_row(

@@ -110,7 +110,7 @@ def test_a_path_in_a_file_is_relative_to_the_file(tmp_path):
         (point(elements_per_bay=2.5), ["whole number at least 1"]),
         (point(elements_per_bay=True), ["whole number at least 1"]),
         (point(local_compliance="yes"), ["true or false"]),
-        (point(k_r="stiff"), ['or "tangent" or "rigid"']),
+        (point(k_r="stiff"), ['or "tangent" or "hertz_tangent" or "rigid"']),
         (point(k_r=-1), ["above 0 N/m"]),
         (point(law="hertz", k_r=1), ['runs.point.k_r: applies only with law = "linear"']),
         (point(k_r="rigid", integrator="average_acceleration"), ["generalised_alpha"]),
