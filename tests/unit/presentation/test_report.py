@@ -5,6 +5,8 @@ from pathlib import Path
 
 import pytest
 
+from contactstudy.figures import drawings
+from contactstudy.figures.style import drawing, new_figure, save
 from contactstudy.report import write_report
 from contactstudy.report.abstract import GRADES, abstract, grade, papers_scheme
 from contactstudy.report.content import content
@@ -25,7 +27,20 @@ def made(tmp_path_factory):
     spec.loader.exec_module(module)
     study = module.made_study(companions=[module.made_study(rough=0.0, name="smooth_rail")])
     out = tmp_path_factory.mktemp("report")
+    place_figures(study, out)
     return study, out, write_report(study, out)
+
+
+def place_figures(study, out):
+    """One small figure under the name of each: drawing them all is tested elsewhere."""
+    with drawing():
+        axes = (figure := new_figure(1.0)).add_subplot()
+        axes.plot([0, 1], [0, 1])
+        pdf = save(figure, out, "small")[0].read_bytes()
+    for each, folder in [(study, out), *((c, out / c.name) for c in study.companions)]:
+        (folder / "figures").mkdir(parents=True)
+        for made_figure in drawings(each):
+            (folder / "figures" / f"{made_figure.name}.pdf").write_bytes(pdf)
 
 
 def pages(pdf):
@@ -157,6 +172,7 @@ def test_the_papers_scheme_is_the_linear_euler_run(made):
 
 
 def test_report_without_optional_parts(bare, tmp_path):
+    place_figures(bare, tmp_path)
     path = write_report(bare, tmp_path)
     data = content(bare, False)
     assert [p["title"] for p in data["results"]][:1] == ["Contact force"]
