@@ -2,11 +2,7 @@
 
 Coordinates: x along the rail relative to the wheel's lowest point, y lateral in the rail's
 axes, z up. Points lie on the wheel's tread and travel with it. The gap is never taken from
-facets: it is the distance between the smooth profiles in double precision. Displacements are
-interpolated, those of the wheel bilinearly between the four nodes of the point's facet, those
-of the rail by cubic polynomials between the nodes of its running surface: the points move over
-the rail's mesh, and with linear interpolation the sagitta of the dent between two nodes
-(about 1 um at 2 mm) would come and go with every element passed.
+facets: it is the distance between the smooth profiles in double precision.
 """
 
 from dataclasses import dataclass
@@ -14,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from contactstudy.contact.interpolation import Rows, grid_rows, line_rows
+from contactstudy.contact.interpolation import Rows, grid_rows, linear_rows
 from contactstudy.exceptions import InputError
 from contactstudy.profiles.rail import RailProfile
 from contactstudy.profiles.wheel import WheelProfile
@@ -183,7 +179,7 @@ def contact_points(
     # dA = dx dy / n_z on the rail's surface
     area = factor * dx[:, None] * (dy / normal)[None, :]
     my = len(wheel_y)
-    rows = grid_rows(line_rows(wheel_x, x, 1), line_rows(wheel_y, y, 1), my)
+    rows = grid_rows(linear_rows(wheel_x, x), linear_rows(wheel_y, y), my)
     facet = (np.arange(len(x))[:, None] // 2) * (my - 1) + np.arange(len(y))[None, :] // 2
     return ContactPoints(
         x,

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from contactstudy.contact.interpolation import Rows, grid_rows, line_rows
+from contactstudy.contact.interpolation import SplineLine
 from contactstudy.contact.points import ContactPoints
 from contactstudy.contact.surface import PressedForces, press
 from contactstudy.exceptions import InputError
@@ -96,8 +96,8 @@ def tangent_stiffness(curve: PressCurve, load: float) -> float:
     return float(1.0 / (2 / 3 * c1 * load ** (-1 / 3) + c2))
 
 
-def rail_rows(points: ContactPoints, rail_x: Array, rail_y: Array, offset: float = 0.0) -> Rows:
-    """Cubic interpolation from the nodes of a running surface to the contact points.
+def rail_matrix(points: ContactPoints, rail_x: Array, rail_y: Array, offset: float = 0.0) -> Array:
+    """Spline interpolation from the nodes of a running surface to the contact points.
 
     Parameters
     ----------
@@ -110,14 +110,11 @@ def rail_rows(points: ContactPoints, rail_x: Array, rail_y: Array, offset: float
 
     Returns
     -------
-    Rows
-        (n, 16)
+    ndarray (n, nx*ny)
     """
-    return grid_rows(
-        line_rows(rail_x, points.x + offset, 3),
-        line_rows(rail_y, points.y, 3, mirrored=points.symmetric),
-        len(rail_y),
-    )
+    along = SplineLine(rail_x)(points.x + offset)
+    across = SplineLine(rail_y, mirrored=points.symmetric)(points.y)
+    return np.asarray(np.kron(along, across))
 
 
 def penalty_compliance(points: ContactPoints, penalty: float) -> Array:

@@ -73,16 +73,16 @@ def contact_forces(
     gap: Array,
     guess: Mask | None = None,
     *,
-    max_iterations: int = 200,
+    max_iterations: int = 1000,
     patience: int = 8,
 ) -> PatchForces:
     """Contact forces for given free gaps.
 
     Primal-dual active set (semismooth Newton): all points that violate their condition change
-    sides at once. Newton may cycle; so as soon as the number of violations has not come down
-    for `patience` exchanges only the violating point of highest index changes sides until it
-    has (Murty's rule, finite for these matrices; Judice and Pires 1994, Computers and
-    Operations Research 21:587).
+    sides at once. Newton may cycle; so once the number of violations has not come down for
+    `patience` exchanges, the same problem is solved as the convex programme that it is, min
+    ``lam M lam/2 + gap lam`` over ``lam >= 0``, by Lawson and Hanson's method (1974, ch. 23),
+    which never goes up and therefore ends.
 
     Parameters
     ----------
@@ -108,37 +108,66 @@ def contact_forces(
     NumericalError
         If `M` is not positive definite or the active set does not settle.
     """
-    n = len(gap)
     active = (gap < 0) if guess is None else np.array(guess, dtype=bool)
     # a gap is "open" down to rounding of the largest one
     tolerance = 1e-13 * float(np.abs(gap).max(initial=0.0))
-    best, tries = n + 1, patience
-    forces = np.zeros(n)
-    violations = 0
-    for iteration in range(max_iterations):
-        index = np.flatnonzero(active)
-        forces = np.zeros(n)
-        slack = gap
-        if len(index):
-            # M_AA lam_A = -g_A
-            forces[index] = _solve(M, index, -gap[index])
-            slack = gap + M[:, index] @ forces[index]
+    best, tries = len(gap) + 1, patience
+    for iteration in range(1, max_iterations + 1):
+        forces, slack = _balance(M, gap, active)
         wrong = np.where(active, forces < 0, slack < -tolerance)
         violations = int(np.count_nonzero(wrong))
         if violations == 0:
-            return PatchForces(forces, active, iteration + 1)
-        if violations < best:
-            best, tries = violations, patience
-        else:
-            tries -= 1
+            return PatchForces(forces, active, iteration)
+        tries = patience if violations < best else tries - 1
+        best = min(best, violations)
         if tries < 0:
-            active[np.flatnonzero(wrong)[-1]] ^= True
-        else:
-            active ^= wrong
-    raise NumericalError(
-        f"contact: active set not settled after {max_iterations} linear solves: {n} points, "
-        f"{int(active.sum())} active, {violations} violating, least gap {gap.min():.3e} m, "
-        f"sum of forces {forces.sum():.6g} N"
+            return _descend(M, gap, tolerance, iteration, max_iterations)
+        active ^= wrong
+    raise _unsettled(gap, active, forces, max_iterations)
+
+
+def _balance(M: Array, gap: Array, active: Mask) -> tuple[Array, Array]:
+    """Forces that close the gaps of the active points, and the gaps then left."""
+    forces, index = np.zeros(len(gap)), np.flatnonzero(active)
+    if not len(index):
+        return forces, gap
+    # M_AA lam_A = -g_A
+    forces[index] = _solve(M, index, -gap[index])
+    return forces, gap + M[:, index] @ forces[index]
+
+
+def _descend(
+    M: Array, gap: Array, tolerance: float, iteration: int, max_iterations: int
+) -> PatchForces:
+    """Lawson and Hanson's active set: points enter one at a time, forces stay admissible."""
+    active = np.zeros(len(gap), dtype=bool)
+    forces, slack = np.zeros(len(gap)), gap
+    while True:
+        worst = int(np.argmin(np.where(active, np.inf, slack)))
+        if active.all() or slack[worst] >= -tolerance:
+            return PatchForces(forces, active, iteration)
+        active[worst] = True
+        while True:
+            iteration += 1
+            if iteration > max_iterations:
+                raise _unsettled(gap, active, forces, max_iterations)
+            target, slack = _balance(M, gap, active)
+            low = active & (target <= 0)
+            if not low.any():
+                forces = target
+                break
+            # go towards the target until the first force vanishes; that point leaves
+            share = forces[low] / (forces[low] - target[low])
+            forces = forces + share.min() * (target - forces)
+            leaving = np.flatnonzero(low)[share <= share.min()]
+            forces[leaving], active[leaving] = 0.0, False
+
+
+def _unsettled(gap: Array, active: Mask, forces: Array, limit: int) -> NumericalError:
+    return NumericalError(
+        f"contact: active set not settled after {limit} linear solves: {len(gap)} points, "
+        f"{int(active.sum())} active, least gap {gap.min():.3e} m, sum of forces "
+        f"{forces.sum():.6g} N"
     )
 
 

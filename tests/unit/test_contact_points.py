@@ -2,8 +2,9 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy.interpolate import make_interp_spline
 
-from contactstudy.contact.interpolation import grid_rows, line_rows
+from contactstudy.contact.interpolation import SplineLine, grid_rows, linear_rows
 from contactstudy.contact.points import contact_points, rolling_drop
 from contactstudy.exceptions import InputError
 from contactstudy.profiles import rail_profile, wheel_profile
@@ -14,36 +15,45 @@ LINES = np.array([0.0, 1.0, 2.5, 3.0, 4.5, 6.0])
 @given(st.lists(st.floats(0.0, 6.0), min_size=1, max_size=20))
 def test_interpolation_reproduces_polynomials(points: list[float]) -> None:
     s = np.array(points)
-    for degree in (1, 3):
-        rows = line_rows(LINES, s, degree)
-        for power in range(degree + 1):
-            value = (rows.weight * LINES[rows.index] ** power).sum(axis=1)
-            np.testing.assert_allclose(value, s**power, atol=1e-11 * 6.0**power)
+    rows = linear_rows(LINES, s)
+    np.testing.assert_allclose((rows.weight * LINES[rows.index]).sum(axis=1), s, atol=1e-12)
+    np.testing.assert_allclose(rows.weight.sum(axis=1), 1.0)
+    spline = SplineLine(LINES)(s)
+    for power in range(4):
+        np.testing.assert_allclose(spline @ LINES**power, s**power, atol=1e-11 * 6.0**power)
 
 
-def test_mirrored_lines_reproduce_even_polynomials() -> None:
-    s = np.linspace(0.0, 1.0, 7)
-    rows = line_rows(LINES, s, 3, mirrored=True)
-    f = LINES**2
-    np.testing.assert_allclose((rows.weight * f[rows.index]).sum(axis=1), s**2, atol=1e-12)
+def test_spline_is_an_independent_one() -> None:
+    rng = np.random.default_rng(0)
+    f, s = rng.standard_normal(len(LINES)), rng.uniform(0, 6, 30)
+    expected = make_interp_spline(LINES, f, k=3)(s)
+    np.testing.assert_allclose(SplineLine(LINES)(s) @ f, expected, atol=1e-12)
+
+
+def test_mirrored_spline_is_that_of_the_whole_line() -> None:
+    rng = np.random.default_rng(1)
+    f, s = rng.standard_normal(len(LINES)), rng.uniform(0, 6, 30)
+    whole = np.concatenate([-LINES[:0:-1], LINES])
+    expected = make_interp_spline(whole, np.concatenate([f[:0:-1], f]), k=3)(s)
+    np.testing.assert_allclose(SplineLine(LINES, mirrored=True)(s) @ f, expected, atol=1e-12)
 
 
 def test_product_rows() -> None:
     x, y = np.array([0.3, 1.7]), np.array([0.1, 2.0, 5.5])
-    rows = grid_rows(line_rows(LINES, x, 3), line_rows(LINES, y, 3), len(LINES))
-    f = np.add.outer(LINES**3, 2 * LINES**2).ravel()
-    expected = np.add.outer(x**3, 2 * y**2).ravel()
+    rows = grid_rows(linear_rows(LINES, x), linear_rows(LINES, y), len(LINES))
+    f = np.multiply.outer(LINES, 2 * LINES + 1).ravel()
+    expected = np.multiply.outer(x, 2 * y + 1).ravel()
     np.testing.assert_allclose((rows.weight * f[rows.index]).sum(axis=1), expected)
     np.testing.assert_allclose(rows.matrix(f.size) @ f, expected)
 
 
-def test_interpolation_refuses_points_outside() -> None:
+def test_interpolation_refuses_what_it_cannot_do() -> None:
     with pytest.raises(InputError, match="outside the"):
-        line_rows(LINES, np.array([6.1]), 3)
-    with pytest.raises(InputError, match="needs 4 lines"):
-        line_rows(LINES[:3], np.array([1.0]), 3)
-    with pytest.raises(InputError, match="must be 1 or 3"):
-        line_rows(LINES, np.array([1.0]), 2)
+        linear_rows(LINES, np.array([6.1]))
+    with pytest.raises(InputError, match="outside the"):
+        SplineLine(LINES)(np.array([-0.1]))
+    with pytest.raises(InputError, match="too few"):
+        SplineLine(LINES[:3])
 
 
 def half_points(**changes: object):  # type: ignore[no-untyped-def]

@@ -16,14 +16,14 @@ from contactstudy.contact.press import (
     PressCurve,
     contact_ellipse,
     press_curve,
-    rail_rows,
+    rail_matrix,
     tangent_stiffness,
 )
 from contactstudy.profiles import rail_profile, wheel_profile
 from contactstudy.solids.halfspace import graded_lines, half_space_patch
 
 LOADS = np.array([50e3, 60e3, 80e3, 100e3])
-MARGIN = 2  # surface lines beyond the contact points, for the cubic interpolation
+MARGIN = 2  # surface lines beyond the contact points, for the spline
 
 
 def hertz(force: float) -> tuple[float, float, float, float]:
@@ -62,9 +62,9 @@ def block(size: float) -> tuple[ContactPoints, np.ndarray]:
     assert len(full) == 2 * nx - 1
     # quarter model: the points stand for x < 0 as well, and the rail's rows mirror there
     quarter = points.__class__(**{**points.__dict__, "area": 2 * points.area})
-    rows = rail_rows(quarter, full, patch.y)
-    fold = np.abs(rows.index // len(patch.y) - (nx - 1)) * len(patch.y) + rows.index % len(patch.y)
-    Pr = rows.__class__(fold, rows.weight).matrix(nx * len(patch.y))
+    # rail's nodes at x < 0 fold onto their images
+    fold = np.kron(np.eye(nx)[np.abs(np.arange(2 * nx - 1) - (nx - 1))], np.eye(ny))
+    Pr = rail_matrix(quarter, full, patch.y) @ fold
     wheel = quarter.wheel_rows
     column = wheel.index // len(quarter.wheel_y) * ny + wheel.index % len(quarter.wheel_y)
     Pw = wheel.__class__(column, wheel.weight).matrix(nx * ny)

@@ -1,0 +1,252 @@
+"""Surface contact as the time stepper sees it: a travelling patch of contact points.
+
+With the wheel's displacement w (up), the rail's surface displacement u_n along its normal, and
+the irregularity r, the gap at point i is
+
+    g_i = gap_i + n_i w - u_n(X + x_i, y_i) - n_i r(X + x_i)
+
+and its flexibility W = P_r (Res + scale H S^-1 H^T) P_r^T + P_w F_w P_w^T + scale n n^T S_ww^-1:
+H is the map from the track's dofs to its surface nodes, Res their residual flexibility, P_r and
+P_w interpolate nodes to points, F_w is the wheel's flexibility relative to its hub.
+"""
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contactstudy.banded import Factor
+from contactstudy.contact.interpolation import SplineLine
+from contactstudy.contact.points import ContactPoints
+from contactstudy.contact.press import penalty_compliance
+from contactstudy.contact.search import CandidateList
+from contactstudy.contact.surface import contact_forces
+from contactstudy.dynamics import ContactStep
+from contactstudy.exceptions import NumericalError
+from contactstudy.track.patch import SurfacePatch
+
+Array = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+
+NEAR = 0.5e-6
+"""Points whose free gap is below this [m] enter the dense problem from the start."""
+
+
+class PatchSource(Protocol):
+    """A track that can show its running surface around a position."""
+
+    def patch(self, x: float, half_length: float) -> SurfacePatch:
+        """Running surface around X."""
+
+
+@dataclass(frozen=True)
+class PatchState:
+    """Contact at the end of the last step, at all points.
+
+    Attributes
+    ----------
+    forces : ndarray (n,)
+        Normal forces in N.
+    active : ndarray of bool (n,)
+        Points in contact.
+    """
+
+    forces: Array
+    active: NDArray[np.bool_]
+
+
+class SurfaceCoupling:
+    """Penalty pressure on the points of one wheel.
+
+    Parameters
+    ----------
+    track : PatchSource
+        Its dofs are the first ones of the system.
+    points : ContactPoints
+        Of the wheel.
+    wheel_flexibility : ndarray (nodes, nodes)
+        Of the wheel's tread nodes relative to the hub, in m/N.
+    wheel_dof : int
+        Dof of the system that is the wheel's (its hub's) displacement.
+    positions : ndarray (n_times,)
+        X of the wheel at every state in m.
+    irregularity : ndarray (n_times, len(points.x))
+        r at X + points.x in m.
+    candidates : CandidateList
+        Facets that can touch.
+    penalty : float
+        In Pa/m.
+    rail_step : float
+        Distance of the rail's surface nodes along X in m.
+    """
+
+    def __init__(
+        self,
+        track: PatchSource,
+        points: ContactPoints,
+        wheel_flexibility: Array,
+        wheel_dof: int,
+        positions: Array,
+        irregularity: Array,
+        candidates: CandidateList,
+        penalty: float,
+        rail_step: float,
+    ) -> None:
+        self._track, self._points, self._candidates = track, points, candidates
+        self._wheel_dof, self._positions, self._irregularity = wheel_dof, positions, irregularity
+        self._compliance = penalty_compliance(points, penalty)
+        n = len(points.gap)
+        tread = points.wheel_rows.matrix(len(wheel_flexibility))
+        self._wheel_W = tread @ wheel_flexibility @ tread.T
+        # two nodes beyond the outermost point, for the spline
+        self._half_length = float(np.abs(points.x).max()) + 2 * rail_step
+        self._penalty = penalty
+        self._active = np.zeros(n, dtype=bool)
+        self._listed: IntArray | None = None
+        self._allowed = np.zeros(n, dtype=bool)
+        self._patch_step = -1
+        self._spline: SplineLine | None = None
+        self.last = PatchState(np.zeros(n), self._active)
+
+    def attach(self, factor: Factor, scale: float) -> None:
+        """Take the factor of the system and the share of the new force in a step."""
+        self._factor, self._scale = factor, scale
+        unit = np.zeros(factor.n)
+        unit[self._wheel_dof] = 1.0
+        self._wheel_compliance = float(factor.solve(unit)[self._wheel_dof])
+        self._columns: dict[int, Array] = {}
+        self._compliance_key: int | None = None
+        self._patch_step = -1
+
+    def __call__(self, step: int, u_free: Array) -> ContactStep:
+        """Forces at the end of a step."""
+        points, normal = self._points, self._points.normal_z
+        self._move_to(step)
+        patch = self._patch
+        roughness = np.repeat(self._irregularity[step], len(points.y))
+        free = (
+            points.gap
+            + (u_free[self._wheel_dof] - roughness) * normal
+            - self._interpolated(patch.map @ u_free[patch.dofs])
+        )
+        allowed = self._candidate_points(float(((points.gap - free) / normal).max()))
+        chosen = allowed & ((free < NEAR) | self._active)
+        forces, active, surface_load = self._solve(step, free, chosen, allowed)
+        load = np.zeros(len(u_free))
+        load[patch.dofs] -= patch.map.T @ surface_load
+        total = float(normal @ forces)
+        load[self._wheel_dof] += total
+        increment = self._scale * self._factor.solve(load)
+        self._active = active
+        self.last = PatchState(forces, active)
+        record: dict[str, Array | float] = {
+            "contact_force": np.array([total]),
+            "contact_area": points.contact_area(active),
+            "peak_pressure": float(points.nodal_pressure(forces).max()),
+            "penetration": float((self._compliance * forces).max()),
+            # what the reduced track leaves out of the centre line's deflection
+            "centre_residual": -float(patch.centre_residual @ surface_load),
+        }
+        return ContactStep(load, increment, record)
+
+    def _move_to(self, step: int) -> None:
+        """Patch and interpolation at a step."""
+        if step == self._patch_step:
+            return
+        X = float(self._positions[step])
+        patch = self._track.patch(X, self._half_length)
+        if self._spline is None:
+            # the nodes stand at equal distances: one spline serves all positions
+            self._spline = SplineLine(patch.x - patch.x[0])
+            self._across = SplineLine(patch.y, mirrored=self._points.symmetric)(self._points.y)
+        self._along = self._spline(X - patch.x[0] + self._points.x)
+        if patch.key != self._compliance_key:
+            self._dof_compliance = self._compliance_of(patch.dofs)
+            self._compliance_key = patch.key
+        self._patch, self._patch_step = patch, step
+
+    def _interpolated(self, nodal: Array) -> Array:
+        """Values at the points from values at the rail's surface nodes."""
+        grid = nodal.reshape(self._along.shape[1], -1)
+        return (self._along @ grid @ self._across.T).ravel()
+
+    def _compliance_of(self, dofs: IntArray) -> Array:
+        """S^-1 on the patch's dofs; columns are kept while the wheel passes them."""
+        wanted = sorted(set(dofs.tolist()))
+        missing = [d for d in wanted if d not in self._columns]
+        unit = np.zeros((self._factor.n, len(missing)))
+        unit[missing, np.arange(len(missing))] = 1.0
+        solved = self._factor.solve(unit)
+        self._columns = {d: self._columns[d] for d in wanted if d in self._columns} | {
+            d: np.ascontiguousarray(solved[:, k]) for k, d in enumerate(missing)
+        }
+        C = np.stack([self._columns[d][dofs] for d in dofs.tolist()])
+        return np.asarray(0.5 * (C + C.T))
+
+    def _candidate_points(self, approach: float) -> NDArray[np.bool_]:
+        listed = self._candidates.quads(approach)
+        if listed is not self._listed:
+            self._allowed = np.isin(self._points.facet, listed)
+            self._listed = listed
+        return self._allowed
+
+    def _solve(
+        self, step: int, free: Array, chosen: NDArray[np.bool_], allowed: NDArray[np.bool_]
+    ) -> tuple[Array, NDArray[np.bool_], Array]:
+        """Forces at all points, active points, nodal forces on the rail's surface.
+
+        The dense problem holds the chosen points only. Its solution is checked at all points;
+        those found overlapping join, so the restriction never changes the result.
+        """
+        n, normal, patch = len(free), self._points.normal_z, self._patch
+        scale, C, H = self._scale, self._dof_compliance, patch.map
+        wheel_scale = scale * self._wheel_compliance
+        ny = len(self._points.y)
+        for _ in range(20):
+            index = np.flatnonzero(chosen)
+            forces, active = np.zeros(n), np.zeros(n, dtype=bool)
+            nodal = np.zeros(len(H))
+            if len(index):
+                P = self._along[index // ny, :, None] * self._across[index % ny, None, :]
+                P = P.reshape(len(index), -1)
+                PH = P @ H
+                M = P @ patch.residual @ P.T + PH @ (scale * C) @ PH.T
+                M += self._wheel_W[index[:, None], index]
+                M += np.outer(wheel_scale * normal[index], normal[index])
+                M.flat[:: len(index) + 1] += self._compliance[index]
+                solution = contact_forces(M, free[index], self._active[index])
+                forces[index], active[index] = solution.forces, solution.active
+                nodal = P.T @ solution.forces
+            gap = (
+                free
+                + self._wheel_W[:, index] @ forces[index]
+                + wheel_scale * normal * float(normal @ forces)
+                + self._interpolated(patch.residual @ nodal + H @ (scale * (C @ (H.T @ nodal))))
+            )
+            missed = ~chosen & (gap < -1e-12)
+            if not missed.any():
+                self._check_edge(step, active)
+                return forces, active, nodal
+            if np.any(missed & ~allowed):
+                raise NumericalError(
+                    f"contact search missed points in contact at step {step}, X = "
+                    f"{self._positions[step]:.4f} m: gap {gap[missed & ~allowed].min():.3e} m "
+                    "outside the candidate facets"
+                )
+            chosen = chosen | missed
+        raise NumericalError(
+            f"contact: the set of points near contact does not settle at step {step}, X = "
+            f"{self._positions[step]:.4f} m ({len(index)} of {n} points)"
+        )
+
+    def _check_edge(self, step: int, active: NDArray[np.bool_]) -> None:
+        grid = active.reshape(len(self._points.x), -1)
+        side = grid[:, -1].any() or (not self._points.symmetric and grid[:, 0].any())
+        if grid[0].any() or grid[-1].any() or side:
+            raise NumericalError(
+                f"contact patch reaches the edge of the finely meshed zone at step {step}, X = "
+                f"{self._positions[step]:.4f} m: enlarge the wheel's contact zone "
+                f"(now {self._points.wheel_x[0]:.4g} to {self._points.wheel_x[-1]:.4g} m along, "
+                f"{self._points.wheel_y[0]:.4g} to {self._points.wheel_y[-1]:.4g} m across)"
+            )

@@ -1,0 +1,300 @@
+"""The surface-contact solver: meshed elastic wheel on meshed elastic rail."""
+
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from contactstudy.banded import Factor
+from contactstudy.contact.coupling import PatchState, SurfaceCoupling
+from contactstudy.contact.points import ContactPoints, contact_points, rolling_drop
+from contactstudy.contact.press import PressCurve, press_curve, rail_matrix
+from contactstudy.contact.search import CandidateList, FacetSearch, grid_surface
+from contactstudy.dynamics import Integrator, State, average_acceleration
+from contactstudy.irregularity import Profile, faded
+from contactstudy.profiles.rail import rail_profile
+from contactstudy.profiles.wheel import wheel_profile
+from contactstudy.solids.wheel import WheelFlexibility, WheelRecipe, rigid_wheel
+from contactstudy.solvers.journey import Journey
+from contactstudy.solvers.run import Assembly, Progress, run
+from contactstudy.track.solid import SolidTrack
+from contactstudy.validation import positive, raise_if
+from contactstudy.vehicle import Vehicle
+
+Array = NDArray[np.float64]
+
+PRESS_LOADS = np.linspace(0.25, 2.0, 8)
+"""Loads of the static press that comes with a run, in static wheel loads."""
+
+
+def surface_contact(
+    track: SolidTrack,
+    wheel: WheelFlexibility | None,
+    vehicle: Vehicle,
+    irregularity: Profile,
+    journey: Journey,
+    *,
+    penalty: float = 1e16,
+    pressure_at: Sequence[float] = (),
+    integrator: Integrator | None = None,
+    progress: Progress | None = None,
+) -> xr.Dataset:
+    """Run a meshed wheel over a solid rail.
+
+    Parameters
+    ----------
+    track : SolidTrack
+        Discretised track with a solid rail.
+    wheel : WheelFlexibility or None
+        Elastic wheel; None: a rigid one of the default dimensions.
+    vehicle : Vehicle
+        With one wheel.
+    irregularity : Profile
+        r(X), positive raises the running surface, uniform across the rail; faded in from the
+        wheel's start. It is evaluated at every contact point's own X.
+    journey : Journey
+        Where, how fast, which steps.
+    penalty : float
+        Pressure per penetration in Pa/m.
+    pressure_at : sequence of float
+        Positions of the wheel in m at whose nearest step the pressure field is kept.
+    integrator : Integrator, optional
+        Average acceleration when not given.
+    progress : callable, optional
+        Called with (steps done, steps).
+
+    Returns
+    -------
+    xarray.Dataset
+        See `contactstudy.solvers.dataset`; in addition `contact_area`, `peak_pressure` (at the
+        wheel's tread nodes), `penetration` (largest), the static press of this very geometry
+        (`press_force`, `press_approach` from the hub to the rail's centre line), and with
+        `pressure_at` the field `pressure` (instant, point) at the tread nodes and the wheel's
+        deformed section at the first instant.
+
+    Raises
+    ------
+    InputError
+        Listing everything about the arguments that is impossible.
+    NumericalError
+        When the computation breaks down, with step and position.
+    """
+    began = time.perf_counter()
+    integrator = integrator or average_acceleration()
+    wheel = wheel or rigid_wheel(WheelRecipe(rail_profile=track.cell.recipe.profile))
+    problems = journey.problems_on(track.track, vehicle) + positive("penalty", penalty, "Pa/m")
+    problems += _problems(track, wheel, vehicle)
+    problems += [
+        f"pressure_at = {x:g} m: the wheel must pass it, from {journey.start:g} to "
+        f"{journey.end:g} m"
+        for x in pressure_at
+        if not journey.start <= x <= journey.end
+    ]
+    raise_if(problems)
+
+    points = wheel_points(wheel)
+    positions = journey.wheel_positions(vehicle.wheel_offsets)
+    profile = faded(irregularity, float(positions[0, 0]), journey.fade_in)
+    assembly = Assembly(track, vehicle)
+    coupling = SurfaceCoupling(
+        track,
+        points,
+        wheel.flexibility,
+        int(assembly.wheel_dofs[0]),
+        positions[:, 0],
+        profile(positions + points.x),
+        candidate_list(track, wheel),
+        penalty,
+        track.thickness,
+    )
+    kept = _Instants(coupling, positions[:, 0], pressure_at)
+    load = float(assembly.static_loads[0])
+    pressed = geometry_press(track, wheel, load * PRESS_LOADS, penalty)
+    elastic = bool(wheel.flexibility.any())
+    data = run(
+        assembly,
+        coupling,
+        journey,
+        integrator,
+        profile(positions),
+        setup_began=began,
+        attrs={
+            "solver": "surface",
+            "rail": "solid",
+            "law": "penalty",
+            "penalty": penalty,
+            "wheel": "elastic" if elastic else "rigid",
+            "mesh_size": track.cell.recipe.size,
+            "contact_points": len(points.gap),
+        },
+        progress=progress,
+        on_state=kept,
+    )
+    data["rail_displacement"] += data["centre_residual"]
+    data = data.drop_vars("centre_residual")
+    data["press_force"] = ("press", pressed.force, {"units": "N", "long_name": "pressing force"})
+    data["press_approach"] = (
+        "press",
+        pressed.approach,
+        {"units": "m", "long_name": "approach of the wheel's hub to the rail's centre line"},
+    )
+    return kept.into(data, points, wheel)
+
+
+def wheel_points(wheel: WheelFlexibility) -> ContactPoints:
+    """Contact points of a centred wheel on the rail of its recipe."""
+    recipe = wheel.recipe
+    return contact_points(
+        wheel.x,
+        wheel.y,
+        recipe.dimensions.radius,
+        rail_profile(recipe.rail_profile),
+        wheel_profile(recipe.profile),
+    )
+
+
+def candidate_list(track: SolidTrack, wheel: WheelFlexibility) -> CandidateList:
+    """Search of the wheel's tread facets over the rail's running surface."""
+    recipe = wheel.recipe
+    rail, radius = rail_profile(recipe.rail_profile), recipe.dimensions.radius
+    drop = rolling_drop(wheel.x, wheel_profile(recipe.profile).height(wheel.y), radius)
+    reach = 1.5 * float(wheel.x[-1])
+    y = track.cell.surface_y
+    top = np.broadcast_to(rail.running_surface(y), (2, len(y)))
+    step = max(float(np.diff(wheel.x).max()), float(np.diff(y).max()))
+    return CandidateList(
+        FacetSearch(grid_surface(wheel.x, wheel.y, drop)),
+        grid_surface(np.array([-reach, reach]), y, top),
+        y,
+        sagitta=step**2 / 8 * (1 / radius + 1 / rail.crown_radius),
+    )
+
+
+def geometry_press(
+    track: SolidTrack,
+    wheel: WheelFlexibility,
+    loads: Array,
+    penalty: float = 1e16,
+    x: float | None = None,
+) -> PressCurve:
+    """Static press of the wheel on the rail, measured from the hub to the rail's centre line.
+
+    The deflection of the rail as a beam is taken out with the centre line, so what is left is
+    the local flexibility that a point model's contact spring stands for; its tangent at the
+    static load (`contact.press.tangent_stiffness`) is the matching k_r.
+
+    Parameters
+    ----------
+    track : SolidTrack
+        Any supported track with the rail; its supports do not matter.
+    wheel : WheelFlexibility
+        Elastic or rigid.
+    loads : ndarray (k,)
+        In N.
+    penalty : float
+        In Pa/m.
+    x : float, optional
+        Position on the track in m; its middle when not given.
+
+    Returns
+    -------
+    PressCurve
+    """
+    points = wheel_points(wheel)
+    x = 0.5 * track.track.length if x is None else x
+    patch = track.patch(x, float(np.abs(points.x).max()) + 2 * track.thickness)
+    factor = Factor(track.stiffness)
+    unit = np.zeros((factor.n, len(patch.dofs)))
+    unit[patch.dofs, np.arange(len(patch.dofs))] = 1.0
+    C = factor.solve(unit)[patch.dofs]
+    nodal = patch.map @ (0.5 * (C + C.T)) @ patch.map.T + patch.residual
+    P = rail_matrix(points, patch.x, patch.y, x)
+    tread = points.wheel_rows.matrix(len(wheel.flexibility))
+    W = P @ nodal @ P.T + tread @ wheel.flexibility @ tread.T
+    # deflection of the centre line per unit nodal force; forces push the rail down
+    reference = P @ (patch.map @ (C.T @ patch.centre_map) + patch.centre_residual)
+    return press_curve(points, W, loads, penalty, reference)
+
+
+def _problems(track: SolidTrack, wheel: WheelFlexibility, vehicle: Vehicle) -> list[str]:
+    problems = []
+    if vehicle.n_wheels != 1:
+        problems.append(
+            f"surface contact: the vehicle has {vehicle.n_wheels} wheels; exactly one is possible"
+        )
+    if wheel.recipe.rail_profile != track.cell.recipe.profile:
+        problems.append(
+            f"surface contact: the wheel was made for rail {wheel.recipe.rail_profile}, the track "
+            f"has {track.cell.recipe.profile}"
+        )
+    if wheel.y[-1] > track.cell.surface_y[-1] * (1 + 1e-6):
+        problems.append(
+            f"wheel contact_half_width = {wheel.y[-1]:.4g} m: must not exceed the rail's finely "
+            f"meshed running surface, {track.cell.surface_y[-1]:.4g} m"
+        )
+    return problems
+
+
+@dataclass
+class _Kept:
+    position: float
+    time: float
+    state: PatchState
+
+
+class _Instants:
+    """Keeps the contact at the steps nearest to given positions."""
+
+    def __init__(self, coupling: SurfaceCoupling, positions: Array, at: Sequence[float]) -> None:
+        self._coupling, self._positions = coupling, positions
+        self._steps = {int(np.argmin(np.abs(positions - x))) for x in at}
+        self._kept: list[_Kept] = []
+
+    def __call__(self, state: State) -> None:
+        if state.step in self._steps:
+            self._kept.append(
+                _Kept(float(self._positions[state.step]), state.time, self._coupling.last)
+            )
+
+    def into(self, data: xr.Dataset, points: ContactPoints, wheel: WheelFlexibility) -> xr.Dataset:
+        """Add pressure fields and the wheel's deformed section to a dataset."""
+        if not self._kept:
+            return data
+        rows, n = points.wheel_rows, len(wheel.x) * len(wheel.y)
+        area = np.zeros(n)
+        np.add.at(area, rows.index, rows.weight * points.area[:, None])
+        pressure = np.stack([points.nodal_pressure(k.state.forces) for k in self._kept])
+        first = self._kept[0].state.forces
+        nodal = np.zeros(n)
+        np.add.at(nodal, rows.index, rows.weight * first[:, None])
+        hub = float(data["wheel_displacement"].sel(time=self._kept[0].time, method="nearest"))
+        moved = wheel.section_response @ nodal + np.array([0.0, hub])
+
+        def coordinate(values: Array, unit: str, text: str, dim: str) -> tuple:
+            return (dim, values, {"units": unit, "long_name": text})
+
+        return data.assign(
+            pressure=(
+                ("instant", "point"),
+                pressure,
+                {"units": "Pa", "long_name": "contact pressure at the wheel's tread nodes"},
+            ),
+            section_wheel_nodes=(("wheel_node", "axis"), wheel.section_nodes, {"units": "m"}),
+            section_wheel_quads=(("wheel_quad", "corner"), wheel.section_quads),
+            section_wheel_displacement=(("wheel_node", "axis"), moved, {"units": "m"}),
+        ).assign_coords(
+            instant_time=coordinate(np.array([k.time for k in self._kept]), "s", "time", "instant"),
+            instant_position=coordinate(
+                np.array([k.position for k in self._kept]), "m", "position of the wheel", "instant"
+            ),
+            point_x=coordinate(
+                np.repeat(wheel.x, len(wheel.y)), "m", "position relative to the wheel", "point"
+            ),
+            point_y=coordinate(
+                np.tile(wheel.y, len(wheel.x)), "m", "position across the rail", "point"
+            ),
+            point_area=coordinate(area, "m^2", "area, of both halves", "point"),
+        )
