@@ -153,9 +153,9 @@ def number(value: float, digits: int = 3) -> str:
     return text.replace("-", "\N{MINUS SIGN}", 1)
 
 
-def exact(value: float) -> str:
-    """Return a given (not a computed) value in plain text: up to six digits, no trailing zeros."""
-    text = number(value, 6)
+def exact(value: float, digits: int = 6) -> str:
+    """Return a given (not a computed) value in plain text, without trailing zeros."""
+    text = number(value, digits)
     if "·" in text:
         mantissa, power = text.split("·")
         return f"{_trimmed(mantissa)}·{power}"

@@ -70,13 +70,13 @@ def _spectrum_caption(info: IrregularityInfo) -> str:
             side = "above" if mean > 0 else "below"
             text += (
                 f" {_capital(other.label)} lies on average {number(abs(mean), 2)} dB {side} "
-                f"{base.label} between {exact(low)} and {exact(high)} rad/m."
+                f"{base.label} between {exact(low, 3)} and {exact(high, 3)} rad/m."
             )
     if info.measured is not None:
         low, high = info.measured.band
         text += (
-            f" The measurement is valid in the shaded band of {exact(low)} to {exact(high)} rad/m "
-            f"(wavelengths of {number(2 * np.pi / high)} to {number(2 * np.pi / low)} m); "
+            f" The measurement is valid in the shaded band of {exact(low, 3)} to "
+            f"{exact(high, 3)} rad/m (wavelengths of {number(2 * np.pi / high)} to {number(2 * np.pi / low)} m); "
             "outside it is drawn thin."
         )
     return text

@@ -105,9 +105,10 @@ def _verdict(results: StudyResults) -> str:
             f"part, {percent(total)} % of the total force, and the forces are at most "
             f"{number(largest * 1e-3)} kN apart."
         )
-    rest = [f"{percent(errors[n][1])} % ({label(n)})" for n in ordered if n not in told]
+    rest = [f"{percent(errors[n][1])} % (“{label(n)}”)" for n in ordered if n not in told]
     if rest:
-        text += f" The error of the dynamic part is {_listing(rest)} in the other runs."
+        others = "runs" if len(rest) > 1 else "run"
+        text += f" In the other {others} the error of the dynamic part is {_listing(rest)}."
     return text
 
 

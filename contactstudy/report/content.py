@@ -16,7 +16,6 @@ from contactstudy.report.tables import (
     passing_table,
     run_table,
     text,
-    versions_table,
 )
 from contactstudy.study.results import StudyResults
 
@@ -141,21 +140,22 @@ def _companion_parts(results: StudyResults) -> list[Content]:
 
 def _provenance(results: StudyResults) -> list[Block]:
     provenance = results.provenance
-    seed = provenance.get("seed")
     lines = [f"Study: {results.name}."]
-    if seed is not None:
-        lines.append(f"Seed of the random phases: {seed}.")
+    if provenance.get("seed") is not None:
+        lines.append(f"Seed of the random phases: {provenance['seed']}.")
     if provenance.get("hash"):
-        lines.append(f"Hash of all parameters: {provenance['hash']}.")
-    for key, value in (provenance.get("mesh") or {}).items():
-        lines.append(f"Mesh of the solid rail, {label(key)}: {quantity(value)[0]}.")
+        lines.append(f"Hash of all inputs and of the program: {provenance['hash']}.")
+    if mesh := provenance.get("mesh"):
+        parts = ", ".join(f"{label(key)} {quantity(value)[0]}" for key, value in mesh.items())
+        lines.append(
+            f"Mesh from which solid rail and beams take their section (SI units): {parts}."
+        )
     for name, digest in (provenance.get("files") or {}).items():
         lines.append(f"Input file {name}, SHA-256 {digest}.")
-    blocks: list[Block] = [{"kind": "list", "items": lines}, versions_table(results)]
-    blocks.append(
-        text(
-            "The same inputs give the same bytes of this report: it carries no date, and figures "
-            "carry none."
-        )
+    if versions := provenance.get("versions"):
+        parts = ", ".join(f"{name} {version}" for name, version in versions.items())
+        lines.append(f"Versions: {parts}.")
+    lines.append(
+        "The same inputs give the same bytes of this report: it carries no date, nor do its figures."
     )
-    return blocks
+    return [{"kind": "list", "items": lines}]

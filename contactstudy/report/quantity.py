@@ -1,5 +1,6 @@
 """Numbers as they stand in the report: SI prefixes, significant digits, typographic signs."""
 
+import re
 from typing import Any
 
 import numpy as np
@@ -9,15 +10,7 @@ from contactstudy.figures.drawing import exact, number
 # Unit -> whether its leading symbol takes a prefix, and which.
 _LARGE = ((1e9, "G"), (1e6, "M"), (1e3, "k"))
 _PREFIXED = ("N", "Pa")
-_PRETTY = {
-    "N*s/m": "N·s/m",
-    "N*s/m^2": "N·s/m²",
-    "N*m^2": "N·m²",
-    "N/m^2": "N/m²",
-    "kg/m^3": "kg/m³",
-    "m^2": "m²",
-    "m^4": "m⁴",
-}
+_RAISED = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def quantity(value: Any, unit: str = "") -> tuple[str, str]:
@@ -40,7 +33,7 @@ def quantity(value: Any, unit: str = "") -> tuple[str, str]:
     if value is None or value == "" or value == []:
         return "none", ""
     if isinstance(value, str):
-        return value.replace("_", " ") if " " not in value and "." not in value else value, ""
+        return value, ""
     if isinstance(value, list | tuple):
         if not value:
             return "none", ""
@@ -73,12 +66,8 @@ def grouped(value: int) -> str:
 
 def pretty_unit(unit: str) -> str:
     """Unit with raised dots and exponents."""
-    return _PRETTY.get(unit, unit.replace("*", "·"))
-
-
-def with_unit(value: float, unit: str) -> str:
-    """`quantity` as one text."""
-    return " ".join(part for part in quantity(value, unit) if part)
+    raised = re.sub(r"\^(\d+)", lambda match: match[1].translate(_RAISED), unit)
+    return raised.replace("*", "·")
 
 
 def percent(fraction: float, digits: int = 2) -> str:

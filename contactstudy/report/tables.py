@@ -202,10 +202,3 @@ def passing_table(results: StudyResults) -> Block | None:
         2,
         "A dash where a model has no elements or cells of a length that divides a bay.",
     )
-
-
-def versions_table(results: StudyResults) -> Block:
-    """Packages and their versions."""
-    versions: Mapping[str, str] = results.provenance.get("versions", {})
-    rows = [[name, str(v)] for name, v in versions.items()]
-    return table(["Package", "Version"], rows, "Versions used.", 2)

@@ -196,11 +196,12 @@ def test_template_has_no_figures_of_its_own():
         (5e-5, "s", ("50", "µs")),
         (0.002, "m", ("2", "mm")),
         (0.6, "m", ("0.6", "m")),
+        (8e-8, "m^2*rad/m", ("8·10⁻⁸", "m²·rad/m")),
         (1000, "", ("1000", "")),
         (0, "N/m", ("0", "N/m")),
         (True, "", ("yes", "")),
         (None, "m", ("none", "")),
-        ("wheel_column", "", ("wheel column", "")),
+        ("wheel_column", "", ("wheel_column", "")),
         ([0.08, 20.0], "rad/m", ("0.08, 20", "rad/m")),
     ],
 )
