@@ -114,15 +114,17 @@ class Factor:
 
     def solve(self, b: np.ndarray) -> np.ndarray:
         """Solve for one or several right-hand sides, (n,) or (n, k); b is left as it is."""
+        if b.ndim == 2:
+            solution = np.empty((b.shape[1], self.n))
+            for column, x in zip(b.T, solution, strict=True):
+                x[:] = self.solve(column)
+            return solution.T
         left, inverse = self._blocks
         width = left.shape[2]
-        columns = np.atleast_2d(b.T)
-        x = np.zeros((len(columns), width + left.shape[0] * BLOCK))
-        x[:, width : width + self.n] = columns
-        for column in x:
-            _solve_in_place(left, inverse, column)
-        solution = x[:, width : width + self.n]
-        return solution[0] if b.ndim == 1 else solution.T
+        x = np.zeros(width + left.shape[0] * BLOCK)
+        x[width : width + self.n] = b
+        _solve_in_place(left, inverse, x)
+        return x[width : width + self.n]
 
 
 @njit(cache=True, fastmath={"reassoc", "contract"})

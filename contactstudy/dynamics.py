@@ -145,29 +145,26 @@ def march(
         If S cannot be factored or a state is not finite; says at which step.
     """
     raise_if(positive("time step", dt, "s"))
-    beta, gamma = integrator.beta, integrator.gamma
-    wm, wf = 1.0 - integrator.alpha_m, 1.0 - integrator.alpha_f
     alpha_m, alpha_f = integrator.alpha_m, integrator.alpha_f
-    # a(n+1) = c0 (u(n+1) - u) - c2 v - c3 a;  v(n+1) = v + dt ((1-gamma) a + gamma a(n+1))
-    c0, c2, c3 = 1.0 / (beta * dt**2), 1.0 / (beta * dt), 1.0 / (2.0 * beta) - 1.0
-    # v(n+1) = d0 (u(n+1) - u) + d2 v + d3 a
-    d0, d2, d3 = gamma / (beta * dt), 1.0 - gamma / beta, dt * (1.0 - gamma / (2.0 * beta))
-
+    wm, wf = 1.0 - alpha_m, 1.0 - alpha_f
+    c0, c2, c3, d0, d2, d3 = integrator.kinematics(dt)
     factor = Factor(system.combine(wm * c0, wf * d0, wf))
     if coupling is not None:
         coupling.attach(factor, wf)
     mass, damping, stiffness = map(_parts, (system.mass, system.damping, system.stiffness))
+    # S u* = (1-af) f_ext(n+1) + af f(n) + M(...) + C(...) + K(...), each (...) = (c u + d v + e a)
+    of_mass = np.array([wm * c0, -wm * c2, -wm * c3 - alpha_m])
+    of_damping = np.array([wf * d0, -wf * d2 - alpha_f, -wf * d3])
+    of_stiffness = np.array([-alpha_f, 0.0, 0.0])
     load_at = external if callable(external) else lambda step: external
     u, v, a, load = start.u, start.v, start.a, start.load
     for step in range(1, n_steps + 1):
         ext = load_at(step)
-        # S u* = (1-af) f_ext(n+1) + af f(n) + M(...) + C(...) - af K u
-        rhs = wf * ext
-        _add_product(*mass, wm * (c0 * u + c2 * v + c3 * a) - alpha_m * a, rhs)
-        _add_product(*damping, wf * (d0 * u - d2 * v - d3 * a) - alpha_f * v, rhs)
+        rhs = wf * ext + alpha_f * load
+        _add_product(*mass, of_mass, u, v, a, rhs)
+        _add_product(*damping, of_damping, u, v, a, rhs)
         if alpha_f != 0.0:
-            rhs += alpha_f * load
-            _add_product(*stiffness, -alpha_f * u, rhs)
+            _add_product(*stiffness, of_stiffness, u, v, a, rhs)
         u_new = factor.solve(rhs)
         contact = None
         load = ext
@@ -175,15 +172,15 @@ def march(
             contact = coupling(step, u_new)
             u_new = u_new + contact.increment
             load = ext + contact.load
-        a_new = c0 * (u_new - u) - c2 * v - c3 * a
-        v = v + dt * ((1.0 - gamma) * a + gamma * a_new)
-        u, a = u_new, a_new
-        if not np.isfinite(a.sum()):
+        v_new, a_new = np.empty_like(u), np.empty_like(u)
+        finite = _advance(c0, c2, c3, d0, d2, d3, u, v, a, u_new, v_new, a_new)
+        if not finite:
             where = f" (wheel at X = {position(step):.3f} m)" if position else ""
             raise NumericalError(
                 f"the state is not finite after step {step} of {n_steps},"
                 f" t = {step * dt:.6g} s{where}"
             )
+        u, v, a = u_new, v_new, a_new
         yield State(step, step * dt, u, v, a, load, contact)
 
 
@@ -269,11 +266,44 @@ def _parts(matrix: sp.csr_array) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 @njit(cache=True, fastmath={"reassoc", "contract"})
 def _add_product(
-    indptr: np.ndarray, indices: np.ndarray, data: np.ndarray, x: np.ndarray, y: np.ndarray
+    indptr: np.ndarray,
+    indices: np.ndarray,
+    data: np.ndarray,
+    coefficients: np.ndarray,
+    u: np.ndarray,
+    v: np.ndarray,
+    a: np.ndarray,
+    y: np.ndarray,
 ) -> None:
-    """y += A x for a matrix in compressed rows."""
+    """y += A (c0 u + c1 v + c2 a) for a matrix A in compressed rows."""
+    x = coefficients[0] * u + coefficients[1] * v + coefficients[2] * a
     for row in range(len(y)):
         total = 0.0
         for k in range(indptr[row], indptr[row + 1]):
             total += data[k] * x[indices[k]]
         y[row] += total
+
+
+@njit(cache=True)
+def _advance(
+    c0: float,
+    c2: float,
+    c3: float,
+    d0: float,
+    d2: float,
+    d3: float,
+    u: np.ndarray,
+    v: np.ndarray,
+    a: np.ndarray,
+    u_new: np.ndarray,
+    v_new: np.ndarray,
+    a_new: np.ndarray,
+) -> bool:
+    """Newmark's kinematics; False if the new state is not finite."""
+    total = 0.0
+    for i in range(len(u)):
+        moved = u_new[i] - u[i]
+        a_new[i] = c0 * moved + c2 * v[i] + c3 * a[i]
+        v_new[i] = d0 * moved + d2 * v[i] + d3 * a[i]
+        total += a_new[i] * 0.0  # 0 as long as all are finite
+    return total == 0.0

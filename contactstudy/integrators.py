@@ -36,6 +36,20 @@ class Integrator:
     alpha_f: float
     order: int
 
+    def kinematics(self, dt: float) -> tuple[float, float, float, float, float, float]:
+        """Coefficients of Newmark's kinematics with the new displacements as unknowns.
+
+        Returns
+        -------
+        c0, c2, c3 : float
+            a(n+1) = c0 (u(n+1) - u) + c2 v + c3 a.
+        d0, d2, d3 : float
+            v(n+1) = d0 (u(n+1) - u) + d2 v + d3 a.
+        """
+        beta, gamma = self.beta, self.gamma
+        c0, c2, c3 = 1.0 / (beta * dt**2), -1.0 / (beta * dt), 1.0 - 1.0 / (2.0 * beta)
+        return c0, c2, c3, gamma * dt * c0, 1.0 + gamma * dt * c2, dt * (1.0 - gamma + gamma * c3)
+
     @property
     def constraint_radius(self) -> float:
         """Spectral radius of the response to a displacement that is prescribed every step.
@@ -43,14 +57,9 @@ class Integrator:
         Below 1, an error in the acceleration or in the force of a rigid constraint dies out. For
         average acceleration it is 1 with a double root: there such errors grow linearly.
         """
-        # u(n) = 0 for all n leaves (dt v, dt^2 a) -> matrix (dt v, dt^2 a)
-        beta, gamma = self.beta, self.gamma
-        matrix = np.array(
-            [
-                [1.0 - gamma / beta, 1.0 - gamma / (2.0 * beta)],
-                [-1.0 / beta, 1.0 - 1.0 / (2.0 * beta)],
-            ]
-        )
+        # u(n) = 0 for all n leaves (v, a) -> matrix (v, a), here with dt = 1
+        _, c2, c3, _, d2, d3 = self.kinematics(1.0)
+        matrix = np.array([[d2, d3], [c2, c3]])
         # and the force averaged by alpha_f: (1 - af) lambda(n+1) + af lambda(n) = given
         force = self.alpha_f / (1.0 - self.alpha_f)
         return float(max(np.abs(np.linalg.eigvals(matrix)).max(), force))

@@ -106,7 +106,8 @@ def contact_forces(
             return _hertz_many(k_hertz, compliance, free_gap)
         case LinearSpring(stiffness=k_r):
             # lambda = F - k_r (g* + W lambda)  =>  (W + 1/k_r) lambda = F/k_r - g*
-            flexibility = compliance + np.eye(len(free_gap)) / k_r
+            flexibility = compliance.copy()
+            flexibility.flat[:: len(free_gap) + 1] += 1.0 / k_r
             return _linear(flexibility, static_loads / k_r - free_gap, bilateral)
         case RigidContact():
             return _linear(compliance, -free_gap, bilateral)

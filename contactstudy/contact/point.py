@@ -65,10 +65,11 @@ class PointCoupling:
         dofs, weights = self._dofs[step], self._weights[step]
         rows = np.zeros((len(dofs), self._factor.n))
         np.add.at(rows, (self._wheels, dofs), weights)  # B
-        moved = self._scale * self._factor.solve(rows.T)  # (1-af) S^-1 B^T
-        # W_ij = B_i (1-af) S^-1 B_j^T, and the loaded element's own share on the diagonal
-        compliance = rows @ moved
+        moved = np.array([self._factor.solve(row) for row in rows])  # B S^-1
+        moved *= self._scale
+        # W_ij = (1-af) B_i S^-1 B_j^T, and the loaded element's own share on the diagonal
+        compliance = moved @ rows.T
         compliance.flat[:: len(dofs) + 1] += self._compliance[step]
-        free_gap = (weights * u_free[dofs]).sum(axis=1) - self._irregularity[step]
+        free_gap = np.einsum("ij,ij->i", weights, u_free[dofs]) - self._irregularity[step]
         force = contact_forces(self._law, compliance, free_gap, self._loads, self._bilateral)
-        return ContactStep(force @ rows, moved @ force, {"contact_force": force})
+        return ContactStep(force @ rows, force @ moved, {"contact_force": force})

@@ -8,6 +8,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from contactstudy.track.hermite import BeamElement
+from contactstudy.track.inner_dofs import InnerDofs, pad_parts
 from contactstudy.track.model import Direction, Track, WinklerFoundation
 from contactstudy.track.supports import PadRow, SupportedRail, add_supports, chain_of
 from contactstudy.validation import one_of, raise_if
@@ -26,8 +27,9 @@ class BeamTrack:
         Timoshenko elements have shear flexibility, their own shape functions and rotary inertia.
     elements_per_bay : int
     element_compliance : bool
-        Whether `local_compliance` returns the compliance of the loaded element itself, which
-        the shape functions leave out, or zero (the paper's scheme).
+        Whether the deflection of loaded elements themselves counts, which the nodal shape
+        functions leave out: `local_compliance` under the wheel, and inner dofs for what pads
+        and inertia do (see `contactstudy.track.inner`). False is the paper's scheme.
     direction : {"Z", "Y"}
         Vertical or lateral bending, with the supports' values for that direction.
 
@@ -103,24 +105,31 @@ class BeamTrack:
         Returns
         -------
         dofs : ndarray
-            (m, 4) int64.
+            (m, k) int64, k = 4 without element compliance.
         weights : ndarray
-            (m, 4); u(x) = sum(weights * u[dofs]). A dof that an end condition holds has
+            (m, k); u(x) = sum(weights * u[dofs]). A dof that an end condition holds has
             weight 0.
         """
         element, xi = self._locate(x)
         nodal = 2 * element[:, None] + np.arange(4)
-        dofs = self._dof_of_nodal[nodal]
         weights = self.element.deflection_shapes(xi)
+        if self._inner is not None:
+            extra, values = self._inner.values(element, xi)
+            extra = np.where(extra < 0, -1, 2 * self.n_elements + 2 + extra)
+            nodal, weights = np.hstack((nodal, extra)), np.hstack((weights, values))
+        dofs = np.where(nodal < 0, -1, self._final_dof[nodal])
         held = dofs < 0
         return np.where(held, 0, dofs), np.where(held, 0.0, weights)
 
     def local_compliance(self, x: np.ndarray) -> np.ndarray:
-        """Compliance of the loaded element itself at X, (m,) [m/N]; 0 when the option is off."""
-        _, xi = self._locate(x)
+        """Compliance at X that no dof has, (m,) [m/N]; 0 when the option is off."""
+        element, xi = self._locate(x)
         if not self.element_compliance:
             return np.zeros_like(xi)
-        return self.element.clamped_compliance(xi)
+        compliance = self.element.clamped_compliance(xi)
+        if self._inner is not None:
+            compliance = np.maximum(compliance - self._inner.compliance(element, xi), 0.0)
+        return compliance
 
     def _locate(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Element index and local coordinate in 0..1 of each X."""
@@ -129,52 +138,70 @@ class BeamTrack:
         return element, scaled - element
 
     @cached_property
-    def _free(self) -> np.ndarray:
-        """Nodal dofs (w and theta in turn) that the end conditions leave."""
-        n = 2 * self.n_elements + 2
-        held = {"clamped": [0, 1, n - 2, n - 1], "pinned": [0, n - 2], "free": []}
-        return np.setdiff1d(np.arange(n), held[self.track.ends])
+    def _inner(self) -> InnerDofs | None:
+        """Inner dofs of the elements, behind the nodal ones."""
+        if not self.element_compliance:
+            return None
+        return InnerDofs.of(self.track.pad_footprints, self.element, self.n_elements)
 
     @cached_property
-    def _dof_of_nodal(self) -> np.ndarray:
-        """Final dof of each nodal dof, -1 where held."""
-        final = np.full(2 * self.n_elements + 2, -1, dtype=np.int64)
+    def _free(self) -> np.ndarray:
+        """Rail dofs (w and theta of each node in turn, inner dofs) that the ends leave free."""
+        n = 2 * self.n_elements + 2
+        held = {"clamped": [0, 1, n - 2, n - 1], "pinned": [0, n - 2], "free": []}
+        n_inner = 0 if self._inner is None else len(self._inner.shapes)
+        return np.setdiff1d(np.arange(n + n_inner), held[self.track.ends])
+
+    @cached_property
+    def _final_dof(self) -> np.ndarray:
+        """Final dof of each rail dof, -1 where held."""
+        final = np.full(self._free[-1] + 3, -1, dtype=np.int64)
         final[self._free] = self._assembled.rail_dofs
         return final
 
     @cached_property
     def _assembled(self) -> SupportedRail:
-        element, n = self.element, self.n_elements
+        element, n, inner = self.element, self.n_elements, self._inner
         mass, stiffness = chain_of(element.mass(), n), chain_of(element.stiffness(), n)
+        keys = np.repeat(np.linspace(0.0, self.track.length, n + 1), 2)
+        if inner is not None:
+            mass = inner.with_gram(mass, element.mass_per_length, element.rotary_inertia)
+            stiffness = inner.with_stiffness(stiffness)
+            keys = np.concatenate((keys, (inner.elements + 0.5) * element.length))
         damping = None
         if isinstance(self.track.support, WinklerFoundation):
-            k, c = self.track.support.values(self.direction)
             bed = chain_of(element.foundation(), n)
+            if inner is not None:
+                bed = inner.with_gram(bed, 1.0, 0.0)
+            k, c = self.track.support.values(self.direction)
             stiffness, damping = stiffness + k * bed, c * bed
         free = self._free
-        keys = np.repeat(np.linspace(0.0, self.track.length, n + 1), 2)[free]
-        rail_dof = np.full(2 * n + 2, -1, dtype=np.int64)
-        rail_dof[free] = np.arange(len(free))
         return add_supports(
             mass[free][:, free],
             None if damping is None else damping[free][:, free],
             stiffness[free][:, free],
-            keys,
+            keys[free],
             self.track,
-            [self._pad_row(first, last, rail_dof) for first, last in self.track.pad_footprints],
+            self._pad_rows(),
             self.direction,
         )
 
-    def _pad_row(self, first: float, last: float, rail_dof: np.ndarray) -> PadRow:
-        """Average deflection over a footprint, by exact integration of the shape functions."""
-        (start, stop), (xi_start, xi_stop) = self._locate(np.array([first, last]))
-        nodal = np.zeros(2 * self.n_elements + 2)
-        if last == first:
-            nodal[2 * start : 2 * start + 4] = self.element.deflection_shapes(xi_start)
-        for e in range(start, stop + 1) if last > first else ():
-            part = self.element.average_shapes(
-                xi_start if e == start else 0.0, xi_stop if e == stop else 1.0
-            )
-            nodal[2 * e : 2 * e + 4] += part / (last - first)
-        used = np.flatnonzero((nodal != 0.0) & (rail_dof >= 0))
-        return PadRow(rail_dof[used], nodal[used])
+    def _pad_rows(self) -> list[PadRow]:
+        """Average deflection over each pad, by exact integration of the shape functions."""
+        n_nodal, free = 2 * self.n_elements + 2, self._free
+        rows = []
+        for pad, footprint in enumerate(self.track.pad_footprints):
+            row = np.zeros(free[-1] + 3)
+            length, total = self.element.length, footprint[1] - footprint[0]
+            for e, begin, end in pad_parts(footprint, length, self.n_elements):
+                nodal = slice(2 * e, 2 * e + 4)
+                if end > begin:
+                    row[nodal] += self.element.average_shapes(begin / length, end / length) / total
+                else:
+                    row[nodal] += self.element.deflection_shapes(np.array(begin / length))
+            if self._inner is not None:
+                dofs, weights = self._inner.pad_weights(pad)
+                np.add.at(row, n_nodal + dofs, weights)
+            used = np.flatnonzero(row[free])
+            rows.append(PadRow(used, row[free][used]))
+        return rows

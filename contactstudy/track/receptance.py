@@ -1,0 +1,86 @@
+"""Receptance of a discretised track in the frequency domain."""
+
+from typing import Protocol
+
+import numpy as np
+import scipy.linalg
+import scipy.sparse as sp
+
+from contactstudy.exceptions import NumericalError
+
+
+class LinearTrack(Protocol):
+    """What is needed of a discretised track: its matrices and the rail's rows."""
+
+    @property
+    def mass(self) -> sp.csr_array:
+        """Mass matrix."""
+
+    @property
+    def damping(self) -> sp.csr_array:
+        """Damping matrix."""
+
+    @property
+    def stiffness(self) -> sp.csr_array:
+        """Stiffness matrix."""
+
+    def rail_rows(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Dofs and weights (m, k) of the rail's displacement at X (m,)."""
+
+    def local_compliance(self, x: np.ndarray) -> np.ndarray:
+        """Compliance under the load that the dofs leave out, (m,) [m/N]."""
+
+
+def receptance(
+    track: LinearTrack, x: float, frequency: np.ndarray, at: float | None = None
+) -> np.ndarray:
+    """Displacement per harmonic unit force on the rail, exp(+i omega t).
+
+    (K + i omega C - omega^2 M) u = N(x)^T; the receptance is N(at) u. Multiply by i omega for
+    the mobility.
+
+    Parameters
+    ----------
+    track : LinearTrack
+        Any discretised track; only its dofs and `local_compliance` count.
+    x : float
+        Position of the force [m].
+    frequency : ndarray
+        (nf,) [Hz].
+    at : float, optional
+        Where the displacement is taken [m]; under the force (with the local compliance) when
+        not given.
+
+    Returns
+    -------
+    ndarray
+        (nf,) complex [m/N].
+
+    Raises
+    ------
+    NumericalError
+        At an undamped resonance.
+    """
+    frequency = np.atleast_1d(np.asarray(frequency, dtype=float))
+    n = track.mass.shape[0]
+    force, response = np.zeros(n), np.zeros(n)
+    for row, position in ((force, x), (response, x if at is None else at)):
+        dofs, weights = track.rail_rows(np.array([position]))
+        np.add.at(row, dofs[0], weights[0])
+    local = float(track.local_compliance(np.array([x]))[0]) if at is None else 0.0
+    K, C, M = track.stiffness, track.damping, track.mass
+    result = np.empty(len(frequency), dtype=complex)
+    for i, omega in enumerate(2.0 * np.pi * frequency):
+        dynamic = sp.coo_array(K + 1j * omega * C - omega**2 * M)
+        rows, columns = dynamic.coords
+        bandwidth = int(np.abs(rows - columns).max(initial=0))
+        band = np.zeros((2 * bandwidth + 1, n), dtype=complex)
+        band[bandwidth + rows - columns, columns] = dynamic.data
+        try:
+            u = scipy.linalg.solve_banded((bandwidth, bandwidth), band, force, overwrite_ab=True)
+        except np.linalg.LinAlgError as error:
+            raise NumericalError(
+                f"the track has an undamped resonance at {frequency[i]:g} Hz"
+            ) from error
+        result[i] = response @ u + local
+    return result
