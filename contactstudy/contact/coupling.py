@@ -29,8 +29,8 @@ from contactstudy.track.patch import SurfacePatch
 Array = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
-NEAR = 0.5e-6
-"""Points whose free gap is below this [m] enter the dense problem from the start."""
+NEAR = 0.3e-6
+"""Points whose gap was below this [m] a step before enter the dense problem from the start."""
 
 
 class PatchSource(Protocol):
@@ -99,10 +99,12 @@ class SurfaceCoupling:
         n = len(points.gap)
         tread = points.wheel_rows.matrix(len(wheel_flexibility))
         self._wheel_W = tread @ wheel_flexibility @ tread.T
+        self._tread, self._tread_area = tread.T, tread.T @ points.area
         # two nodes beyond the outermost point, for the spline
         self._half_length = float(np.abs(points.x).max()) + 2 * rail_step
         self._penalty = penalty
         self._active = np.zeros(n, dtype=bool)
+        self._gap = points.gap
         self._listed: IntArray | None = None
         self._allowed = np.zeros(n, dtype=bool)
         self._patch_step = -1
@@ -131,19 +133,19 @@ class SurfaceCoupling:
             - self._interpolated(patch.map @ u_free[patch.dofs])
         )
         allowed = self._candidate_points(float(((points.gap - free) / normal).max()))
-        chosen = allowed & ((free < NEAR) | self._active)
-        forces, active, surface_load = self._solve(step, free, chosen, allowed)
+        forces, surface_load = self._solve(step, free, self._gap < NEAR, allowed)
+        active = self._active
         load = np.zeros(len(u_free))
-        load[patch.dofs] -= patch.map.T @ surface_load
+        # a dof may be named twice, where an end of the track is held
+        np.subtract.at(load, patch.dofs, patch.map.T @ surface_load)
         total = float(normal @ forces)
         load[self._wheel_dof] += total
         increment = self._scale * self._factor.solve(load)
-        self._active = active
         self.last = PatchState(forces, active)
         record: dict[str, Array | float] = {
             "contact_force": np.array([total]),
             "contact_area": points.contact_area(active),
-            "peak_pressure": float(points.nodal_pressure(forces).max()),
+            "peak_pressure": float((self._tread @ forces / self._tread_area).max()),
             "penetration": float((self._compliance * forces).max()),
             # what the reduced track leaves out of the centre line's deflection
             "centre_residual": -float(patch.centre_residual @ surface_load),
@@ -193,8 +195,8 @@ class SurfaceCoupling:
 
     def _solve(
         self, step: int, free: Array, chosen: NDArray[np.bool_], allowed: NDArray[np.bool_]
-    ) -> tuple[Array, NDArray[np.bool_], Array]:
-        """Forces at all points, active points, nodal forces on the rail's surface.
+    ) -> tuple[Array, Array]:
+        """Forces at all points and nodal forces on the rail's surface.
 
         The dense problem holds the chosen points only. Its solution is checked at all points;
         those found overlapping join, so the restriction never changes the result.
@@ -227,7 +229,8 @@ class SurfaceCoupling:
             missed = ~chosen & (gap < -1e-12)
             if not missed.any():
                 self._check_edge(step, active)
-                return forces, active, nodal
+                self._active, self._gap = active, gap
+                return forces, nodal
             if np.any(missed & ~allowed):
                 raise NumericalError(
                     f"contact search missed points in contact at step {step}, X = "

@@ -1,0 +1,145 @@
+"""The travelling patch against a brute-force solution of the whole coupled system."""
+
+import numpy as np
+import pytest
+import scipy.sparse as sp
+from scipy.optimize import nnls
+
+from contactstudy.banded import Factor
+from contactstudy.contact.coupling import SurfaceCoupling
+from contactstudy.contact.points import contact_points
+from contactstudy.contact.press import rail_matrix
+from contactstudy.contact.search import CandidateList, FacetSearch, grid_surface
+from contactstudy.exceptions import NumericalError
+from contactstudy.profiles import rail_profile, wheel_profile
+from contactstudy.solids.halfspace import boussinesq
+from contactstudy.track.patch import SurfacePatch
+
+RAIL, STEP, N_TRACK, PENALTY = rail_profile("60E1"), 2e-3, 9, 1e16
+
+
+def half_space(x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """Flexibility of a grid of nodes with images about y = 0, blunt at the load."""
+    X, Y = (v.ravel() for v in np.meshgrid(x, y, indexing="ij"))
+    F = np.zeros((len(X), len(X)))
+    for image in (1, -1):
+        d = np.hypot(X[:, None] - X, Y[:, None] - image * Y)
+        zero = np.zeros_like(d)
+        F += 0.5 * boussinesq(np.maximum(d, 0.4 * STEP), zero, zero, 210e9, 0.3)[..., 2]
+    return F
+
+
+class FakeTrack:
+    """A track of a few dofs that all move the surface, and a half-space on top."""
+
+    def __init__(self, rng: np.random.Generator) -> None:
+        self.shapes = rng.standard_normal((N_TRACK, 2)) * np.array([1.0, 3.0])
+
+    def patch(self, x: float, half_length: float) -> SurfacePatch:
+        first = int(np.floor((x - half_length) / STEP))
+        nodes_x = STEP * np.arange(first, first + int(np.ceil(2 * half_length / STEP)) + 2)
+        nodes_y = STEP * np.arange(6)
+        X, _ = np.meshgrid(nodes_x, nodes_y, indexing="ij")
+        return SurfacePatch(
+            key=first // 50,
+            dofs=np.arange(N_TRACK),
+            map=1 + 0.1 * np.sin(X.reshape(-1, 1) * self.shapes[:, 0] + self.shapes[:, 1]),
+            residual=half_space(nodes_x, nodes_y),
+            x=nodes_x,
+            y=nodes_y,
+            centre_map=np.ones(N_TRACK),
+            centre_residual=np.zeros(X.size),
+        )
+
+
+def setting(seed: int = 0, n_steps: int = 6):  # type: ignore[no-untyped-def]
+    rng = np.random.default_rng(seed)
+    track = FakeTrack(rng)
+    x, y = STEP * np.arange(-6, 7), STEP * np.arange(5)
+    points = contact_points(x, y, 0.43, RAIL, wheel_profile("cylinder"))
+    drop = np.broadcast_to(0.43 - np.sqrt(0.43**2 - x[:, None] ** 2), (len(x), len(y)))
+    rail_y = STEP * np.arange(6)
+    top = np.broadcast_to(RAIL.running_surface(rail_y), (2, 6))
+    search = CandidateList(
+        FacetSearch(grid_surface(x, y, drop)),
+        grid_surface(np.array([-0.02, 0.02]), rail_y, top),
+        rail_y,
+        sagitta=3e-6,
+    )
+    positions = 0.1 + 4.17e-3 * np.arange(n_steps)
+    roughness = 1e-6 * np.cos(300 * (positions[:, None] + points.x))
+    wheel_F = half_space(x, y)
+    coupling = SurfaceCoupling(
+        track, points, wheel_F, N_TRACK, positions, roughness, search, PENALTY, STEP
+    )
+    G = rng.standard_normal((N_TRACK + 1, N_TRACK + 1))
+    S = G @ G.T * 1e9 + np.diag(np.full(N_TRACK + 1, 2e10))
+    S[-1, :-1] = S[:-1, -1] = 0.0
+    return track, points, wheel_F, coupling, S, positions, roughness, rng
+
+
+@pytest.mark.parametrize("scale", [1.0, 0.6])
+def test_equals_brute_force(scale: float) -> None:
+    track, points, wheel_F, coupling, S, positions, roughness, rng = setting()
+    coupling.attach(Factor(sp.csr_array(S)), scale)
+    Pw = points.wheel_rows.matrix(len(wheel_F))
+    for step, X in enumerate(positions):
+        u_free = 5e-6 * rng.standard_normal(N_TRACK + 1)
+        u_free[-1] -= 80e-6 + 10e-6 * step
+        result = coupling(step, u_free)
+        # B u, all points, dense; the patch is asked for a wider zone
+        patch = track.patch(X, 0.02)
+        P = rail_matrix(points, patch.x, patch.y, X)
+        B = np.c_[-P @ patch.map, points.normal_z]
+        W = B @ np.linalg.solve(S, B.T) * scale
+        W += P @ patch.residual @ P.T + Pw @ wheel_F @ Pw.T
+        W += np.diag(1 / (PENALTY * points.area))
+        r = np.repeat(roughness[step], len(points.y))
+        gap = points.gap + B @ u_free - points.normal_z * r
+        L = np.linalg.cholesky(0.5 * (W + W.T))
+        forces, _ = nnls(L.T, -np.linalg.solve(L, gap), maxiter=10000)
+        # the spline of another patch differs a little at its ends
+        total = points.normal_z @ forces
+        assert result.record["contact_force"][0] == pytest.approx(total, rel=2e-5)
+        np.testing.assert_allclose(result.load, B.T @ forces, atol=1e-4 * total)
+        np.testing.assert_allclose(
+            result.increment, scale * np.linalg.solve(S, result.load), rtol=1e-9, atol=1e-18
+        )
+        assert result.record["contact_area"] > 0
+        assert np.all(coupling.last.forces >= 0)
+
+
+def test_history_of_the_coupling_does_not_matter() -> None:
+    *_, first, S, positions, _, rng = setting()
+    *_, second, _, _, _, _ = setting()
+    factor = Factor(sp.csr_array(S))
+    first.attach(factor, 1.0)
+    u = 1e-6 * rng.standard_normal(N_TRACK + 1)
+    u[-1] -= 90e-6
+    for step in range(len(positions) - 1):
+        first(step, u * rng.uniform(0.5, 1.5))
+    second.attach(factor, 1.0)
+    last = len(positions) - 1
+    a, b = first(last, u), second(last, u)
+    np.testing.assert_allclose(a.load, b.load, rtol=1e-9, atol=1e-6)
+
+
+def test_separation_and_return() -> None:
+    *_, coupling, S, _, _, _ = setting()
+    coupling.attach(Factor(sp.csr_array(S)), 1.0)
+    down, up = np.zeros(N_TRACK + 1), np.zeros(N_TRACK + 1)
+    down[-1], up[-1] = -80e-6, 1e-3
+    before = coupling(0, down).record["contact_force"][0]
+    away = coupling(1, up)
+    assert away.record["contact_force"][0] == 0.0
+    assert not away.load.any()
+    assert coupling(2, down).record["contact_force"][0] == pytest.approx(before, rel=0.05)
+
+
+def test_patch_that_leaves_the_fine_zone_is_an_error() -> None:
+    *_, coupling, S, _, _, _ = setting()
+    coupling.attach(Factor(sp.csr_array(S)), 1.0)
+    u = np.zeros(N_TRACK + 1)
+    u[-1] = -1e-3
+    with pytest.raises(NumericalError, match="edge of the finely meshed zone at step 0"):
+        coupling(0, u)

@@ -1,0 +1,142 @@
+"""The surface solver on a coarse mesh: statics, the point model it must fall back to, ripple."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from contactstudy.contact.laws import LinearSpring
+from contactstudy.contact.press import tangent_stiffness
+from contactstudy.dynamics import generalised_alpha
+from contactstudy.exceptions import InputError
+from contactstudy.irregularity import HarmonicProfile, SmoothRail
+from contactstudy.solids.cell import RailCell, condense
+from contactstudy.solids.recipe import CellRecipe
+from contactstudy.solids.wheel import WheelFlexibility, WheelRecipe, elastic_wheel
+from contactstudy.solvers.journey import Journey
+from contactstudy.solvers.point import point_contact
+from contactstudy.solvers.surface import geometry_press, surface_contact
+from contactstudy.track.model import Track, WinklerFoundation
+from contactstudy.track.solid import SolidTrack, solid_rail
+from contactstudy.vehicle import bare_wheel, train, wheel_column
+
+COARSE = CellRecipe(size=0.004, interface_modes=10, internal_modes=4)
+
+
+@cache
+def cell() -> RailCell:
+    return condense(COARSE)
+
+
+@cache
+def wheel() -> WheelFlexibility:
+    return elastic_wheel(WheelRecipe(size=0.004))
+
+
+@cache
+def track(winkler: bool = False) -> SolidTrack:
+    rail = solid_rail(COARSE)
+    if winkler:
+        support = WinklerFoundation(100e6, 100e3)
+        return SolidTrack(Track(rail, support, length=7.2, ends="free"), cell())
+    return SolidTrack(Track(rail, length=4.8), cell())
+
+
+def smooth_run(**changes: object) -> xr.Dataset:
+    arguments: dict = {"irregularity": SmoothRail(), "journey": Journey(1.2, 1.6, time_step=1e-4)}
+    return surface_contact(track(), wheel(), wheel_column(), **(arguments | changes))
+
+
+def test_static_start_is_the_press() -> None:
+    data = smooth_run()
+    load = float(data.attrs["static_load"][0])
+    assert float(data.contact_force[0]) == pytest.approx(load, rel=1e-9)
+    approach = float(data.rail_displacement[0] - data.wheel_displacement[0])
+    pressed = geometry_press(track(), wheel(), np.array([load]), x=1.2).approach[0]
+    print(f"approach hub to centre line: run {approach:.9e} m, press {pressed:.9e} m")
+    assert approach == pytest.approx(pressed, rel=1e-6)
+
+
+def test_press_does_not_depend_on_the_track() -> None:
+    # supports and position are taken out with the centre line; what is left is local
+    loads = np.array([40e3, 80e3])
+    base = geometry_press(track(), wheel(), loads).approach
+    for on, x in ((track(), 2.1), (track(winkler=True), 3.6)):
+        other = geometry_press(on, wheel(), loads, x=x).approach
+        print("approach", base, other, "m")
+        np.testing.assert_allclose(other, base, rtol=5e-3)
+
+
+def test_small_roughness_is_the_linear_spring_on_the_same_rail() -> None:
+    # 4 um at a wavelength of 0.4 m (208 Hz): patch filter and nonlinearity are below 1e-3
+    wavelength, load = 0.4, 67e3
+    profile = HarmonicProfile(np.array([2e-6]), np.array([2 * np.pi / wavelength]), np.zeros(1))
+    journey = Journey(1.5, 4.5, time_step=5e-5, fade_in=0.6)
+    vehicle, on = bare_wheel(890.0, load), track(winkler=True)
+    k = tangent_stiffness(geometry_press(on, wheel(), load * np.linspace(0.6, 1.4, 9)), load)
+    surface = surface_contact(on, wheel(), vehicle, profile, journey)
+    point = point_contact(on, vehicle, profile, journey, law=LinearSpring(k))
+    late = surface.position.values > 2.4
+    x = surface.position.values[late]
+    window = np.hanning(len(x)) * np.exp(-2j * np.pi * x / wavelength)
+    # complex amplitudes at the wavelength: what the meshes add elsewhere does not matter
+    f, g = (np.sum(window * (d.contact_force.values[late] - load)) for d in (surface, point))
+    print(f"k_r {k:.4e} N/m; surface over point: {abs(f / g):.5f}, {np.angle(f / g):.5f} rad")
+    assert abs(f / g - 1) < 0.01
+
+
+def test_pressure_field_carries_the_force() -> None:
+    data = smooth_run(pressure_at=(1.3, 1.5), integrator=generalised_alpha(0.8))
+    assert data.pressure.dims == ("instant", "point")
+    np.testing.assert_allclose(data.instant_position, [1.3, 1.5], atol=0.005)
+    for k in range(2):
+        force = float((data.pressure[k] * data.point_area).sum())
+        at = float(data.contact_force.sel(time=data.instant_time[k], method="nearest"))
+        assert force == pytest.approx(at, rel=1e-3)
+    assert float(data.pressure.min()) >= 0.0
+    assert data.section_wheel_displacement.shape == data.section_wheel_nodes.shape
+    for name in ("contact_area", "peak_pressure", "penetration"):
+        assert np.all(data[name].values > 0)
+        assert data[name].attrs["units"]
+    assert float(data.penetration.max()) < 0.01 * 100e-6
+
+
+def test_wrong_arguments_are_refused_together() -> None:
+    two = train([wheel_column(), wheel_column()], [0.0, -0.5])
+    with pytest.raises(InputError) as caught:
+        surface_contact(
+            track(),
+            wheel(),
+            two,
+            SmoothRail(),
+            Journey(1.2, 1.6),
+            penalty=-1.0,
+            pressure_at=(3.0,),
+        )
+    text = str(caught.value)
+    for part in ("2 wheels", "penalty", "pressure_at = 3"):
+        assert part in text
+
+
+@pytest.mark.slow
+def test_no_ripple_at_the_cell_length() -> None:
+    # uniform damped foundation, smooth rail, 2 mm: nothing but the mesh can move the force
+    recipe = CellRecipe()
+    support = WinklerFoundation(100e6, 100e3)
+    on = SolidTrack(Track(solid_rail(recipe), support, length=24.0, ends="free"), condense(recipe))
+    data = surface_contact(
+        on,
+        elastic_wheel(WheelRecipe()),
+        bare_wheel(890.0, 67e3),
+        SmoothRail(),
+        Journey(8.0, 14.0, fade_in=0.0),
+    )
+    late = data.position.values > 11.0
+    force, x = data.contact_force.values[late], data.position.values[late]
+    window = np.hanning(len(force))
+    for length, bound in ((0.1, 3e-4), (0.05, 1e-3)):
+        wave = np.exp(-2j * np.pi * x / length)
+        ripple = 2 * np.abs(np.sum(window * (force - force.mean()) * wave)) / window.sum()
+        print(f"ripple at {1e3 * length:g} mm: {100 * ripple / 67e3:.4f} % of the static load")
+        assert ripple < bound * 67e3
