@@ -189,8 +189,8 @@ def geometry_press(
     Parameters
     ----------
     track : SolidTrack
-        Any supported track with the rail. What remains of its supports is small away from
-        them; over a sleeper the web's compression by the pad takes 3 % off the approach.
+        Any supported track with the rail. In the middle of a bay its supports hardly matter;
+        over a sleeper the compression of the web by the pad adds 3 % to the approach.
     wheel : WheelFlexibility
         Elastic or rigid.
     loads : ndarray (k,)
