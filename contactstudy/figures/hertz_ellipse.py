@@ -19,6 +19,8 @@ class HertzPatch:
         Semi-axes along and across the rail, m.
     peak_pressure : float
         Pa.
+    approach : float
+        Of distant points of the two bodies, m.
     radii : str
         The radii it was computed for, in words.
     """
@@ -26,6 +28,7 @@ class HertzPatch:
     along: float
     across: float
     peak_pressure: float
+    approach: float
     radii: str
 
 
@@ -42,7 +45,9 @@ def hertz_patch(results: StudyResults, force: float) -> HertzPatch | None:
     modulus = contact_modulus(float(track["youngs_modulus"]), float(track["poisson_ratio"]))
     found = hertz_contact(force, modulus, float(radius), crown)
     words = f"wheel {exact(float(radius))} m, crown {exact(crown)} m"
-    return HertzPatch(found.semi_axis_x, found.semi_axis_y, found.peak_pressure, words)
+    return HertzPatch(
+        found.semi_axis_x, found.semi_axis_y, found.peak_pressure, found.approach, words
+    )
 
 
 @cache

@@ -76,8 +76,8 @@ def _spectrum_caption(info: IrregularityInfo) -> str:
         low, high = info.measured.band
         text += (
             f" The measurement is valid in the shaded band of {exact(low, 3)} to "
-            f"{exact(high, 3)} rad/m (wavelengths of {number(2 * np.pi / high)} to {number(2 * np.pi / low)} m); "
-            "outside it is drawn thin."
+            f"{exact(high, 3)} rad/m (wavelengths of {number(2 * np.pi / high)} to "
+            f"{number(2 * np.pi / low)} m); outside it is drawn thin."
         )
     return text
 

@@ -201,7 +201,12 @@ def _history(results: StudyResults) -> Figure:
             run = results.runs[run_name]
             if has_signal(run, name):
                 x = position(run)
-                ax.plot(x, values(run, name) * scale, label=label(run_name), **style.line)
+                ax.plot(
+                    x,
+                    values(run, name) * scale,
+                    label=label(run_name),
+                    **style.line | {"linewidth": 0.5},
+                )
                 if start > x[0]:
                     ax.axvspan(x[0], start, color=SHADE, lw=0, zorder=0)
         ax.set_ylabel(text)

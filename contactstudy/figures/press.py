@@ -1,9 +1,11 @@
-"""Static press of the wheel on the rail: force over approach against Hertz."""
+"""Static press of the wheel on the rail: force over approach, with Hertz's beside it."""
 
 import numpy as np
+import xarray as xr
 from matplotlib.figure import Figure
 
 from contactstudy.figures.drawing import Drawing, FloatArray, label, number
+from contactstudy.figures.hertz_ellipse import hertz_patch
 from contactstudy.figures.style import BLACK, VERMILION, new_figure
 from contactstudy.study.results import StudyResults
 
@@ -12,13 +14,7 @@ def drawings(results: StudyResults) -> list[Drawing]:
     """One figure for the first run that carries a static press, else none."""
     for name, run in results.runs.items():
         if "press_force" in run and "press_approach" in run:
-            force = np.asarray(run["press_force"].values, dtype=float)
-            approach = np.asarray(run["press_approach"].values, dtype=float)
-            hertz = (
-                np.asarray(run["press_hertz_approach"].values, dtype=float)
-                if "press_hertz_approach" in run
-                else None
-            )
+            force, approach, hertz = curves(results, run)
             return [
                 Drawing(
                     "static_press",
@@ -29,17 +25,30 @@ def drawings(results: StudyResults) -> list[Drawing]:
     return []
 
 
+def curves(
+    results: StudyResults, run: xr.Dataset
+) -> tuple[FloatArray, FloatArray, FloatArray | None]:
+    """Forces (k,) in N, approaches (k,) in m, and Hertz's approaches (k,) or None without radii."""
+    force = np.asarray(run["press_force"].values, dtype=float)
+    approach = np.asarray(run["press_approach"].values, dtype=float)
+    patches = [hertz_patch(results, float(f)) for f in force]
+    hertz = [p.approach for p in patches if p is not None]
+    return force, approach, np.array(hertz) if len(hertz) == len(force) else None
+
+
 def exponent(force: FloatArray, approach: FloatArray) -> float:
     """Slope of lg force over lg approach: 1.5 by Hertz."""
     return float(np.polyfit(np.log(approach), np.log(force), 1)[0])
 
 
 def _draw(force: FloatArray, approach: FloatArray, hertz: FloatArray | None) -> Figure:
-    figure = new_figure(2.8, 4.2)
+    figure = new_figure(2.6, 4.2)
     axes = figure.add_subplot()
+    text = "meshed bodies, hub to centre line"
+    axes.plot(approach * 1e6, force * 1e-3, "o", color=BLACK, ms=4, label=text)
     if hertz is not None:
-        axes.plot(hertz * 1e6, force * 1e-3, color=VERMILION, ls="--", label="Hertz")
-    axes.plot(approach * 1e6, force * 1e-3, "o", color=BLACK, ms=4, label="static press, meshed")
+        text = "Hertz, contact alone"
+        axes.plot(hertz * 1e6, force * 1e-3, color=VERMILION, ls="--", label=text)
     axes.set_xlabel("Approach (µm)")
     axes.set_ylabel("Force (kN)")
     axes.legend(loc="upper left")
@@ -48,10 +57,15 @@ def _draw(force: FloatArray, approach: FloatArray, hertz: FloatArray | None) -> 
 
 def _caption(name: str, force: FloatArray, approach: FloatArray, hertz: FloatArray | None) -> str:
     text = (
-        f"Static press of the geometry of the run {label(name)}, far field removed: force over "
-        f"approach. Fitted exponent {number(exponent(force, approach), 4)} (Hertz 1.5)."
+        f"Static press of the wheel on the rail of the run {label(name)}: force over the approach "
+        "of the wheel's hub to the rail's centre line, which contains the bodies' own flexibility. "
+        f"Fitted exponent {number(exponent(force, approach), 4)}."
     )
     if hertz is not None:
-        error = 100 * (approach / hertz - 1)
-        text += f" The approach differs from Hertz's by at most {number(np.abs(error).max(), 2)} %."
+        k = len(force) // 2
+        text += (
+            f" Hertz's approach of the contact alone has the exponent 1.5; at "
+            f"{number(force[k] * 1e-3)} kN it is {number(hertz[k] * 1e6)} µm of the "
+            f"{number(approach[k] * 1e6)} µm."
+        )
     return text

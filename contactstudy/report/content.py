@@ -135,7 +135,7 @@ def _companion_parts(results: StudyResults) -> list[Content]:
     if passing is None or not is_smooth(results):
         return [*_parts(results, prefix), *_errors(results)]
     parts = [p for p in _parts(results, prefix) if p["title"] == "Passing frequencies"]
-    return [{**part, "blocks": [*part["blocks"], passing]} for part in parts]
+    return [{**part, "blocks": [passing, *part["blocks"]]} for part in parts]
 
 
 def _provenance(results: StudyResults) -> list[Block]:
@@ -156,6 +156,6 @@ def _provenance(results: StudyResults) -> list[Block]:
         parts = ", ".join(f"{name} {version}" for name, version in versions.items())
         lines.append(f"Versions: {parts}.")
     lines.append(
-        "The same inputs give the same bytes of this report: it carries no date, nor do its figures."
+        "The same inputs give the same bytes of this report; neither it nor its figures are dated."
     )
     return [{"kind": "list", "items": lines}]

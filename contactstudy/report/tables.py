@@ -13,6 +13,7 @@ from contactstudy.study.schema import SECTIONS
 
 Block = dict[str, Any]
 K_R = "k\N{LATIN SUBSCRIPT SMALL LETTER R}"
+K_H = "k\N{MODIFIER LETTER CAPITAL H}"
 
 _TITLES = {
     "irregularity": "Irregularity",
@@ -104,15 +105,22 @@ def describe(results: StudyResults, name: str) -> tuple[str, str]:
         rail += f", {run['elements_per_bay']} a bay"
     if run.get("local_compliance"):
         rail += ", local compliance"
+    attrs = results.runs[name].attrs
     if run.get("law") == "hertz":
-        return rail, "point, Hertz"
+        return rail, "point, Hertz" + _value(attrs.get("k_H"), "N/m^(3/2)", f"{K_H} = ")
     k_r = run.get("k_r")
     if isinstance(k_r, str):
-        return rail, f"point, {K_R} {k_r}"
-    if k_r is None:
-        return rail, "point"
-    value, unit = quantity(float(k_r), "N/m")
-    return rail, f"point, {K_R} = {value} {unit}"
+        value = attrs.get("k_r") if k_r == "tangent" else None
+        return rail, f"point, {K_R} {k_r}" + _value(value, "N/m")
+    return rail, "point" + _value(k_r, "N/m", f"{K_R} = ")
+
+
+def _value(value: Any, unit: str, before: str = "") -> str:
+    """Return a comma and the value to three digits, or nothing where there is none."""
+    if value is None:
+        return ""
+    shown, prefixed = quantity(float(f"{float(value):.3g}"), unit)
+    return f", {before}{shown} {prefixed}"
 
 
 def run_table(results: StudyResults, timings: bool) -> Block:
