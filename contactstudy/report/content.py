@@ -1,5 +1,6 @@
 """The whole report as plain data, for the template to set."""
 
+import re
 from typing import Any
 
 import contactstudy
@@ -61,8 +62,15 @@ def content(results: StudyResults, timings: bool) -> Content:
     }
 
 
+def _description(results: StudyResults) -> list[Block]:
+    """Paragraphs of the study file's description: lines joined, names in quotation marks."""
+    named = re.sub(r"`([^`\n]+)`", r"“\1”", results.description)
+    paragraphs = [" ".join(p.split()) for p in re.split(r"\n\s*\n", named)]
+    return [text(paragraph) for paragraph in paragraphs if paragraph]
+
+
 def _subject(results: StudyResults, timings: bool) -> list[Block]:
-    blocks = [text(paragraph) for paragraph in results.description.split("\n\n") if paragraph]
+    blocks = _description(results)
     if results.runs:
         blocks.append(
             text(
@@ -124,7 +132,7 @@ def _errors(results: StudyResults) -> list[Content]:
 
 
 def _runs_part(results: StudyResults, timings: bool) -> Content:
-    blocks = [text(paragraph) for paragraph in results.description.split("\n\n") if paragraph]
+    blocks = _description(results)
     return {"title": "Runs", "blocks": [*blocks, run_table(results, timings)]}
 
 

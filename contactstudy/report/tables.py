@@ -12,8 +12,8 @@ from contactstudy.study.results import StudyResults
 from contactstudy.study.schema import SECTIONS
 
 Block = dict[str, Any]
-K_R = "k\N{LATIN SUBSCRIPT SMALL LETTER R}"
-K_H = "k\N{MODIFIER LETTER CAPITAL H}"
+# The template sets these as symbols.
+K_R, K_H = "k_r", "k_H"
 
 _TITLES = {
     "irregularity": "Irregularity",

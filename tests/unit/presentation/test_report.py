@@ -105,10 +105,19 @@ def test_content_has_every_part(made):
     assert "0123456789abcdef" in text
 
 
+def test_description_is_set_in_paragraphs(made):
+    study, *_ = made
+    described = "\nLines of a\nparagraph with `a_run`.\n\nAnother one.\n"
+    other = type(study)(**{**vars(study), "description": described})
+    blocks = content(other, False)["subject"][:2]
+    texts = ["".join(part["text"] for part in block["parts"]) for block in blocks]
+    assert texts == ["Lines of a paragraph with “a_run”.", "Another one."]
+
+
 def test_passing_table_puts_models_side_by_side(made):
     study, *_ = made
     blocks = content(study, False)["companions"][0]["parts"][-1]["blocks"]
-    table = blocks[-1]
+    table = blocks[0]
     assert [row[0] for row in table["rows"]] == ["surface", "hertz timoshenko", "point", "tangent"]
     surface, _, point, _ = table["rows"]
     assert surface[3] == "350"  # N, as put into the signal
