@@ -80,8 +80,8 @@ def is_condensed(study: Study, body: str) -> bool:
     return entry_path(made).exists()
 
 
-def peak_memory_mb() -> float:
-    """Peak resident memory of this process so far, in MB (1e6 bytes); nan where unknown.
+def peak_memory_mb() -> float | None:
+    """Peak resident memory of this process so far, in MB (1e6 bytes); None where unknown.
 
     On Linux from ``/proc``: there ``getrusage`` also counts what the process that started this
     one had in memory at that moment.
@@ -94,6 +94,6 @@ def peak_memory_mb() -> float:
     try:
         import resource
     except ImportError:  # not a POSIX system
-        return float("nan")
+        return None
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     return float(peak * (1 if sys.platform == "darwin" else 1024) / 1e6)

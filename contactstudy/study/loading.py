@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import tomllib
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +19,7 @@ from contactstudy.study.schema import SECTIONS, SOLVERS, Section, Study
 
 _TOP_LEVEL = ("title", "description", "companions", *SECTIONS, "runs", "compare")
 _RUN_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
+_SHARED = ("track", "vehicle", "journey", "solid")
 _PATHS = ("file", "measured_overlay")
 
 
@@ -47,7 +49,9 @@ def find_study(study: str | Path) -> Path:
     )
 
 
-def load_study(study: str | Path, overrides: Iterable[str] = ()) -> Study:
+def load_study(
+    study: str | Path, overrides: Iterable[str] = (), main: Study | None = None
+) -> Study:
     """Read a study file, apply overrides, and check it.
 
     Parameters
@@ -56,6 +60,9 @@ def load_study(study: str | Path, overrides: Iterable[str] = ()) -> Study:
         A path, or the name of a shipped study.
     overrides : iterable of str
         ``key=value`` with dotted keys; values as in TOML, quotes around text may be left out.
+    main : Study, optional
+        The study that this one accompanies: track, vehicle, journey and solid are taken from
+        it where the file has no such table, so that both are about the same wheel and rail.
 
     Raises
     ------
@@ -73,10 +80,31 @@ def load_study(study: str | Path, overrides: Iterable[str] = ()) -> Study:
     problems = []
     for text in overrides:
         problems += _override(data, text)
-    return parse_study(path.stem, data, problems)
+    return parse_study(path.stem, data, problems, main)
 
 
-def parse_study(name: str, data: Mapping[str, Any], problems: Iterable[str] = ()) -> Study:
+def load_companions(study: Study) -> list[Study]:
+    """Studies that accompany a study, on its track; their own companions are left out.
+
+    Raises
+    ------
+    InputError
+        Listing every problem of every companion.
+    """
+    found, problems = [], []
+    for name in study.companions:
+        try:
+            found.append(replace(load_study(name, main=study), companions=()))
+        except InputError as error:
+            problems += [f"companion {name}: {problem}" for problem in error.problems]
+    if problems:
+        raise InputError(problems)
+    return found
+
+
+def parse_study(
+    name: str, data: Mapping[str, Any], problems: Iterable[str] = (), main: Study | None = None
+) -> Study:
     """Check the content of a study file (as TOML gives it); further `problems` are included.
 
     Raises
@@ -88,6 +116,9 @@ def parse_study(name: str, data: Mapping[str, Any], problems: Iterable[str] = ()
     found += [unknown("", key, _TOP_LEVEL) for key in data if key not in _TOP_LEVEL]
     sections: dict[str, Any] = {}
     for key, model in SECTIONS.items():
+        if main is not None and key in _SHARED and key not in data:
+            sections[key] = getattr(main, key)
+            continue
         section, wrong = _section(model, data.get(key, {}), key)
         found += wrong
         if section is not None:
@@ -168,6 +199,11 @@ def _reference(data: Mapping[str, Any], runs: list[str]) -> tuple[str | None, li
 
 def _resolve_paths(data: dict[str, Any], base: Path) -> None:
     """Paths inside a study file are relative to the file."""
+    companions = data.get("companions")
+    if isinstance(companions, list):
+        data["companions"] = [
+            str(base / c) if isinstance(c, str) and (base / c).is_file() else c for c in companions
+        ]
     table = data.get("irregularity")
     if isinstance(table, dict):
         for key in _PATHS:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import contextlib
 import json
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import asdict, dataclass, replace
+from collections.abc import Iterator, Mapping
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any, Protocol
 
@@ -13,7 +13,7 @@ from contactstudy.exceptions import ContactStudyError, InputError, NumericalErro
 from contactstudy.provenance import provenance, versions
 from contactstudy.study import store
 from contactstudy.study.files import ensure_writable, writing
-from contactstudy.study.loading import load_study
+from contactstudy.study.loading import load_companions
 from contactstudy.study.results import (
     METRICS_FILE,
     RESULT_FILE,
@@ -113,12 +113,7 @@ def plan_study(study: Study, out_dir: Path) -> Plan:
     """
     from contactstudy.study.roughness import describe
 
-    companions = []
-    for name in study.companions:
-        companion = load_study(name)
-        if companion.companions:
-            companion = replace(companion, companions=())
-        companions.append(plan_study(companion, out_dir / companion.name))
+    companions = [plan_study(c, out_dir / c.name) for c in load_companions(study)]
     described = describe(study)
     inputs = study.config()
     for key in ("file", "measured_overlay"):
@@ -304,20 +299,18 @@ def render(results: StudyResults, out_dir: Path, reporter: Reporter) -> None:
         write_report(results, out_dir)
 
 
-def _outputs(plan: Plan) -> Callable[[], dict[str, str]]:
-    def sums() -> dict[str, str]:
-        out = plan.out_dir
-        files = [out / RESULT_FILE, out / METRICS_FILE, out / "report.pdf"]
-        files += sorted((out / "figures").glob("*"))
-        for companion in plan.companions:
-            files += [companion.out_dir / RESULT_FILE, companion.out_dir / METRICS_FILE]
-        return {str(path.relative_to(out)): store.file_digest(path) for path in files}
-
-    return sums
+def _outputs(plan: Plan) -> dict[str, str]:
+    """Output file -> SHA-256 of its content."""
+    out = plan.out_dir
+    files = [out / "report.pdf"]
+    for one in plan.all:
+        files += [one.out_dir / RESULT_FILE, one.out_dir / METRICS_FILE]
+        files += sorted((one.out_dir / "figures").glob("*"))
+    return {path.relative_to(out).as_posix(): store.file_digest(path) for path in files}
 
 
 def _mark_finished(plan: Plan) -> None:
-    content = {"key": plan.key(), "files": _outputs(plan)()}
+    content = {"key": plan.key(), "files": _outputs(plan)}
     with writing(plan.out_dir / store.STORE / FINISHED) as path:
         path.write_text(json.dumps(content, indent=1) + "\n", "utf-8")
 
@@ -326,7 +319,7 @@ def finished_results(plan: Plan) -> StudyResults | None:
     """Results of a plan when all its output files are there, whole and up to date."""
     try:
         content = json.loads((plan.out_dir / store.STORE / FINISHED).read_text("utf-8"))
-        if content["key"] != plan.key() or content["files"] != _outputs(plan)():
+        if content["key"] != plan.key() or content["files"] != _outputs(plan):
             return None
         return read_results(plan.out_dir)
     except (OSError, ValueError, KeyError, TypeError, InputError):

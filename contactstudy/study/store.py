@@ -82,7 +82,7 @@ def run_path(out_dir: Path, name: str, key: str) -> Path:
     return out_dir / STORE / f"{name}-{key}.nc"
 
 
-def save_run(path: Path, data: xr.Dataset, peak_memory_mb: float) -> None:
+def save_run(path: Path, data: xr.Dataset, peak_memory_mb: float | None) -> None:
     """Write a run; it counts as finished only when this returns."""
     seconds = {k: float(data.attrs.get(f"seconds_{k}", 0.0)) for k in ("setup", "stepping")}
     with writing(path) as temporary:

@@ -95,7 +95,7 @@ def print_summary(results: StudyResults, out_dir: Path, console: Console) -> Non
     """Print what each run cost, how far it is from the reference, and where everything is."""
     runs = results.metrics.get("runs", {})
     if runs:
-        table = Table(title=results.title, box=SIMPLE, caption=_CAPTION)
+        table = Table(title=results.title, box=SIMPLE, caption=_CAPTION, collapse_padding=True)
         table.add_column("run", no_wrap=True)
         for heading in ("dofs", "steps", "set-up s", "steps s", "MB", "error", "dynamic"):
             table.add_column(heading, justify="right", no_wrap=True)
@@ -107,7 +107,7 @@ def print_summary(results: StudyResults, out_dir: Path, console: Console) -> Non
                 str(run["steps"]),
                 f"{run['seconds']['setup']:.1f}",
                 f"{run['seconds']['stepping']:.1f}",
-                f"{run['peak_memory_mb']:.0f}",
+                "" if run["peak_memory_mb"] is None else f"{run['peak_memory_mb']:.0f}",
                 _percent(force.get("relative_l2"), name == results.reference),
                 _percent(force.get("relative_l2_dynamic"), name == results.reference),
             )
@@ -117,5 +117,5 @@ def print_summary(results: StudyResults, out_dir: Path, console: Console) -> Non
 
 def _percent(value: float | None, reference: bool) -> str:
     if reference:
-        return "reference"
+        return "ref."
     return "" if value is None else f"{100 * value:.2f} %"

@@ -15,8 +15,12 @@ import pytest
 import xarray as xr
 
 from contactstudy import cli
-from contactstudy.study import runner, store
+from contactstudy.irregularity import paper_spectrum
+from contactstudy.solids.cache import entry_path
+from contactstudy.study import build, runner, store
+from contactstudy.study.loading import load_study
 from contactstudy.study.results import read_results
+from contactstudy.study.roughness import describe
 
 SHORT = """
 title = "A short one"
@@ -251,6 +255,68 @@ def test_interrupt_leaves_whole_files_and_the_next_call_goes_on(short, tmp_path)
     run, damage = store.load_run(path)
     assert damage == "" and isinstance(run.data, xr.Dataset)
     assert np.all(np.isfinite(run.data.contact_force))
+
+
+SOLID = """
+[track]
+length = "6 m"
+[irregularity]
+spectrum = "smooth"
+[journey]
+from = "2.4 m"
+to = "2.6 m"
+fade_in = "0.05 m"
+[solid]
+mesh_size = "8 mm"
+cell_length = "0.2 m"
+interface_modes = 6
+internal_modes = 0
+[runs.hertz]
+solver = "point"
+rail = "solid"
+law = "hertz"
+"""
+
+
+def test_a_damaged_cache_entry_is_found_out_and_rebuilt(capfd, short, tmp_path, monkeypatch):
+    monkeypatch.setenv("CONTACTSTUDY_CACHE", str(tmp_path / "cache"))
+    short.write_text(SOLID)
+    entry = entry_path(build.recipe(load_study(short)))
+    entry.parent.mkdir()
+    entry.write_bytes(b"PK\x03\x04 half a file")
+    assert cli.main(["run", str(short), "--out", str(tmp_path / "out")]) == 0
+    err = capfd.readouterr().err
+    assert str(entry) in err and "Traceback" not in err
+    assert len(entry.read_bytes()) > 10000  # whole again
+
+
+LEVEL = Path(__file__).parents[2].parent / "shared" / "data" / "hsr_level_20170110.csv"
+
+
+@pytest.mark.skipif(not LEVEL.is_file(), reason="the measured level is not there; not shipped")
+def test_the_measured_level_study_reads_the_measured_file(capfd):
+    assert cli.main(["check", "measured_level", "--set", f"irregularity.file={LEVEL}"]) == 0
+    study = load_study("measured_level", [f"irregularity.file={LEVEL}"])
+    info = describe(study).info
+    assert info.measured.band == pytest.approx((2 * np.pi / 42, 2 * np.pi / 2.5))
+    assert info.spectrum.label == "eq. (3), Table 1"
+    # the measured line is 3 to 10 dB smoother than Table 1 inside its valid band
+    inside = (info.measured.wavenumber > 0.2) & (info.measured.wavenumber < 2.0)
+    table_1 = paper_spectrum()(info.measured.wavenumber[inside])
+    difference = np.mean(10 * np.log10(info.measured.density[inside] / table_1))
+    print(f"measured against Table 1: -10 to -3 dB ({difference:.1f} dB)")
+    assert -10 < difference < -3
+    refused(capfd, "check", "measured_level", "--set", f"irregularity.file={LEVEL}",
+            "--set", "irregularity.origin=99990")  # fmt: skip
+
+
+@pytest.mark.skipif(not LEVEL.is_file(), reason="the measured level is not there; not shipped")
+def test_a_measured_level_can_be_drawn_beside_a_generated_one():
+    settings = [f"irregularity.measured_overlay={LEVEL}", "irregularity.x_column=chainage_m",
+                "irregularity.level_column=left_mm"]  # fmt: skip
+    described = describe(load_study("paper_irregularity", settings))
+    assert described.info.estimate is not None and described.info.measured is not None
+    assert list(described.files) == [LEVEL.name]
 
 
 def test_reproduce_puts_named_studies_below_the_folder(short, tmp_path, monkeypatch, capfd):

@@ -6,7 +6,13 @@ from pathlib import Path
 import pytest
 
 from contactstudy.exceptions import InputError
-from contactstudy.study.loading import find_study, load_study, parse_study, shipped_studies
+from contactstudy.study.loading import (
+    find_study,
+    load_companions,
+    load_study,
+    parse_study,
+    shipped_studies,
+)
 
 
 def problems_of(data: dict) -> tuple[str, ...]:
@@ -56,8 +62,7 @@ def test_every_shipped_study_loads():
         overrides = ["irregularity.file=level.csv"] if name == "measured_level" else []
         study = load_study(name, overrides)
         assert study.name == name and study.title
-        for companion in study.companions:
-            load_study(companion)
+        assert len(load_companions(study)) == len(study.companions)
 
 
 def test_overrides_take_toml_values_or_plain_text():
@@ -179,6 +184,18 @@ def test_everything_wrong_is_reported_at_once():
                 "irregularity.terms", "runs.point.elements_per_bay", "runs.b.solver"):  # fmt: skip
         assert sum(p.startswith(key) for p in problems) == 1, (key, problems)
     assert len(problems) == 7
+
+
+def test_a_companion_shares_track_and_journey_of_its_study(tmp_path):
+    main = load_study("point_vs_surface", ["track.pad_stiffness=200 MN/m", "journey.to=24 m"])
+    (companion,) = load_companions(main)
+    assert companion.name == "smooth_rail" and companion.irregularity.spectrum == "smooth"
+    assert companion.track.pad_stiffness == 200e6 and companion.journey.end == 24.0
+    assert load_study("smooth_rail").journey.end == 30.0
+    own = tmp_path / "own.toml"
+    own.write_text('[journey]\nto = "40 m"\n')
+    with pytest.raises(InputError, match=r"companion .*own.toml: journey.to = 40.0"):
+        load_companions(load_study("point_vs_surface", [f'companions=["{own}"]']))
 
 
 def test_misspelt_study_names_get_close_matches(tmp_path):
