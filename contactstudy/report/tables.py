@@ -110,8 +110,10 @@ def describe(results: StudyResults, name: str) -> tuple[str, str]:
         return rail, "point, Hertz" + _value(attrs.get("k_H"), "N/m^(3/2)", f"{K_H} = ")
     k_r = run.get("k_r")
     if isinstance(k_r, str):
-        value = attrs.get("k_r") if k_r == "tangent" else None
-        return rail, f"point, {K_R} {k_r}" + _value(value, "N/m")
+        # Rigid contact has no stiffness; the tangent of the press or of Hertz has a value.
+        value = None if k_r == "rigid" else attrs.get("k_r")
+        words = {"hertz_tangent": "tangent of Hertz"}.get(k_r, k_r)
+        return rail, f"point, {K_R} {words}" + _value(value, "N/m")
     return rail, "point" + _value(k_r, "N/m", f"{K_R} = ")
 
 
