@@ -231,10 +231,12 @@ def _problems(track: SolidTrack, wheel: WheelFlexibility, vehicle: Vehicle) -> l
             f"surface contact: the wheel was made for rail {wheel.recipe.rail_profile}, the track "
             f"has {track.cell.recipe.profile}"
         )
-    if wheel.y[-1] > track.cell.surface_y[-1] * (1 + 1e-6):
+    outermost = float(wheel_points(wheel).y[-1])
+    if outermost > track.cell.surface_y[-1]:
         problems.append(
-            f"wheel contact_half_width = {wheel.y[-1]:.4g} m: must not exceed the rail's finely "
-            f"meshed running surface, {track.cell.surface_y[-1]:.4g} m"
+            f"wheel contact_half_width = {wheel.y[-1]:.4g} m: its outermost contact points, at "
+            f"{outermost:.4g} m, lie beyond the rail's finely meshed running surface, "
+            f"{track.cell.surface_y[-1]:.4g} m wide on each side"
         )
     return problems
 
