@@ -17,7 +17,7 @@ from contactstudy.track.model import Direction, Track
 from contactstudy.validation import raise_if
 from contactstudy.vehicle import Vehicle
 
-RIGID_SPECTRAL_RADIUS = 0.8
+RIGID_SPECTRAL_RADIUS = 0.5
 """Spectral radius of the integrator that a rigid contact gets when none is asked for."""
 
 
@@ -96,22 +96,7 @@ def point_contact(
     raise_if(problems)
 
     assembly = Assembly(discrete, vehicle, direction)
-    positions = journey.wheel_positions(vehicle.wheel_offsets)
-    r = np.column_stack(
-        [faded(irregularity, x[0], journey.fade_in)(x) for x in np.ascontiguousarray(positions.T)]
-    )
-    shape = positions.shape
-    rail_dofs, rail_weights = discrete.rail_rows(positions.ravel())
-    coupling = PointCoupling(
-        law,
-        assembly.wheel_dofs,
-        rail_dofs.reshape(*shape, -1),
-        rail_weights.reshape(*shape, -1),
-        discrete.local_compliance(positions.ravel()).reshape(shape),
-        r,
-        assembly.static_loads,
-        bilateral=direction == "Y",
-    )
+    coupling, r = point_coupling(assembly, irregularity, journey, law)
     return run(
         assembly,
         coupling,
@@ -122,6 +107,36 @@ def point_contact(
         attrs={"solver": "point", **_describe_rail(discrete), **_describe_law(law)},
         progress=progress,
     )
+
+
+def point_coupling(
+    assembly: Assembly, irregularity: Profile, journey: Journey, law: ContactLaw
+) -> tuple[PointCoupling, np.ndarray]:
+    """Join a law to all wheel positions of a journey.
+
+    Returns
+    -------
+    coupling : PointCoupling
+    irregularity : ndarray
+        (n_times, n_wheels) r under each wheel, faded in from each wheel's start [m].
+    """
+    positions = journey.wheel_positions(assembly.vehicle.wheel_offsets)
+    r = np.column_stack(
+        [faded(irregularity, x[0], journey.fade_in)(x) for x in np.ascontiguousarray(positions.T)]
+    )
+    shape = positions.shape
+    rail_dofs, rail_weights = assembly.track.rail_rows(positions.ravel())
+    coupling = PointCoupling(
+        law,
+        assembly.wheel_dofs,
+        rail_dofs.reshape(*shape, -1),
+        rail_weights.reshape(*shape, -1),
+        assembly.track.local_compliance(positions.ravel()).reshape(shape),
+        r,
+        assembly.static_loads,
+        bilateral=assembly.direction == "Y",
+    )
+    return coupling, r
 
 
 def _law_problems(law: ContactLaw, direction: Direction, integrator: Integrator) -> list[str]:
