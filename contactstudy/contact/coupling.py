@@ -50,10 +50,13 @@ class PatchState:
         Normal forces in N.
     active : ndarray of bool (n,)
         Points in contact.
+    surface_load : ndarray (nodes,)
+        Nodal forces on the rail's surface patch, in N, positive into the rail.
     """
 
     forces: Array
     active: NDArray[np.bool_]
+    surface_load: Array
 
 
 class SurfaceCoupling:
@@ -79,6 +82,13 @@ class SurfaceCoupling:
         In Pa/m.
     rail_step : float
         Distance of the rail's surface nodes along X in m.
+
+    Attributes
+    ----------
+    half_length : float
+        Of the patches asked of the track in m.
+    last : PatchState
+        Contact at the end of the last step.
     """
 
     def __init__(
@@ -94,14 +104,14 @@ class SurfaceCoupling:
         rail_step: float,
     ) -> None:
         self._track, self._points, self._candidates = track, points, candidates
-        self._wheel_dof, self._positions, self._irregularity = wheel_dof, positions, irregularity
+        self.wheel_dof, self._positions, self._irregularity = wheel_dof, positions, irregularity
         self._compliance = penalty_compliance(points, penalty)
         n = len(points.gap)
         tread = points.wheel_rows.matrix(len(wheel_flexibility))
         self._wheel_W = tread @ wheel_flexibility @ tread.T
         self._tread, self._tread_area = tread.T, tread.T @ points.area
         # two nodes beyond the outermost point, for the spline
-        self._half_length = float(np.abs(points.x).max()) + 2 * rail_step
+        self.half_length = float(np.abs(points.x).max()) + 2 * rail_step
         self._penalty = penalty
         self._active = np.zeros(n, dtype=bool)
         self._gap = points.gap
@@ -109,15 +119,15 @@ class SurfaceCoupling:
         self._allowed = np.zeros(n, dtype=bool)
         self._patch_step = -1
         self._spline: SplineLine | None = None
-        self.last = PatchState(np.zeros(n), self._active)
+        self.last = PatchState(np.zeros(n), self._active, np.zeros(0))
 
     def attach(self, factor: Factor, scale: float) -> None:
         """Take the factor of the system and the share of the new force in a step."""
         self._factor, self._scale = factor, scale
         unit = np.zeros(factor.n)
-        unit[self._wheel_dof] = 1.0
+        unit[self.wheel_dof] = 1.0
         column = factor.solve(unit)
-        self._wheel_compliance = float(column[self._wheel_dof])
+        self._wheel_compliance = float(column[self.wheel_dof])
         self._vehicle = np.flatnonzero(column)
         self._vehicle_response = column[self._vehicle]
         self._columns: dict[int, Array] = {}
@@ -132,7 +142,7 @@ class SurfaceCoupling:
         roughness = np.repeat(self._irregularity[step], len(points.y))
         free = (
             points.gap
-            + (u_free[self._wheel_dof] - roughness) * normal
+            + (u_free[self.wheel_dof] - roughness) * normal
             - self._interpolated(patch.map @ u_free[patch.dofs])
         )
         allowed = self._candidate_points(float(((points.gap - free) / normal).max()))
@@ -143,12 +153,12 @@ class SurfaceCoupling:
         modal = patch.map.T @ surface_load
         np.subtract.at(load, patch.dofs, modal)
         total = float(normal @ forces)
-        load[self._wheel_dof] += total
+        load[self.wheel_dof] += total
         # scale S^-1 load from the columns at hand, which is cheaper than another solution
         increment = np.zeros(len(u_free))
         increment[self._reach] = -self._scale * (modal @ self._response)
         increment[self._vehicle] += self._scale * total * self._vehicle_response
-        self.last = PatchState(forces, active)
+        self.last = PatchState(forces, active, surface_load)
         record: dict[str, Array | float] = {
             "contact_force": np.array([total]),
             "contact_area": points.contact_area(active),
@@ -164,7 +174,7 @@ class SurfaceCoupling:
         if step == self._patch_step:
             return
         X = float(self._positions[step])
-        patch = self._track.patch(X, self._half_length)
+        patch = self._track.patch(X, self.half_length)
         if self._spline is None:
             # the nodes stand at equal distances: one spline serves all positions
             self._spline = SplineLine(patch.x - patch.x[0])

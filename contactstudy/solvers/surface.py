@@ -2,22 +2,22 @@
 
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
 from contactstudy.banded import Factor
-from contactstudy.contact.coupling import PatchState, SurfaceCoupling
+from contactstudy.contact.coupling import SurfaceCoupling
 from contactstudy.contact.points import ContactPoints, contact_points, rolling_drop
 from contactstudy.contact.press import PressCurve, press_curve, rail_matrix
 from contactstudy.contact.search import CandidateList, FacetSearch, grid_surface
-from contactstudy.dynamics import Integrator, State, average_acceleration
+from contactstudy.dynamics import Integrator, average_acceleration
 from contactstudy.irregularity import Profile, faded
 from contactstudy.profiles.rail import rail_profile
 from contactstudy.profiles.wheel import wheel_profile
 from contactstudy.solids.wheel import WheelFlexibility, WheelRecipe, rigid_wheel
+from contactstudy.solvers.instants import Instants
 from contactstudy.solvers.journey import Journey
 from contactstudy.solvers.run import Assembly, Progress, run
 from contactstudy.track.solid import SolidTrack
@@ -72,8 +72,8 @@ def surface_contact(
         See `contactstudy.solvers.dataset`; in addition `contact_area`, `peak_pressure` (at the
         wheel's tread nodes), `penetration` (largest), the static press of this very geometry
         (`press_force`, `press_approach` from the hub to the rail's centre line), and with
-        `pressure_at` the field `pressure` (instant, point) at the tread nodes and the wheel's
-        deformed section at the first instant.
+        `pressure_at` the field `pressure` (instant, point) at the tread nodes and the deformed
+        sections of wheel and rail at the first instant.
 
     Raises
     ------
@@ -110,7 +110,7 @@ def surface_contact(
         penalty,
         track.thickness,
     )
-    kept = _Instants(coupling, positions[:, 0], pressure_at)
+    kept = Instants(coupling, track, positions[:, 0], pressure_at)
     load = float(assembly.static_loads[0])
     pressed = geometry_press(track, wheel, load * PRESS_LOADS, penalty)
     elastic = bool(wheel.flexibility.any())
@@ -239,65 +239,3 @@ def _problems(track: SolidTrack, wheel: WheelFlexibility, vehicle: Vehicle) -> l
             f"{track.cell.surface_y[-1]:.4g} m wide on each side"
         )
     return problems
-
-
-@dataclass
-class _Kept:
-    position: float
-    time: float
-    state: PatchState
-
-
-class _Instants:
-    """Keeps the contact at the steps nearest to given positions."""
-
-    def __init__(self, coupling: SurfaceCoupling, positions: Array, at: Sequence[float]) -> None:
-        self._coupling, self._positions = coupling, positions
-        self._steps = {int(np.argmin(np.abs(positions - x))) for x in at}
-        self._kept: list[_Kept] = []
-
-    def __call__(self, state: State) -> None:
-        if state.step in self._steps:
-            self._kept.append(
-                _Kept(float(self._positions[state.step]), state.time, self._coupling.last)
-            )
-
-    def into(self, data: xr.Dataset, points: ContactPoints, wheel: WheelFlexibility) -> xr.Dataset:
-        """Add pressure fields and the wheel's deformed section to a dataset."""
-        if not self._kept:
-            return data
-        rows, n = points.wheel_rows, len(wheel.x) * len(wheel.y)
-        area = np.zeros(n)
-        np.add.at(area, rows.index, rows.weight * points.area[:, None])
-        pressure = np.stack([points.nodal_pressure(k.state.forces) for k in self._kept])
-        first = self._kept[0].state.forces
-        nodal = np.zeros(n)
-        np.add.at(nodal, rows.index, rows.weight * first[:, None])
-        hub = float(data["wheel_displacement"].sel(time=self._kept[0].time, method="nearest"))
-        moved = wheel.section_response @ nodal + np.array([0.0, hub])
-
-        def coordinate(values: Array, unit: str, text: str, dim: str) -> tuple:
-            return (dim, values, {"units": unit, "long_name": text})
-
-        return data.assign(
-            pressure=(
-                ("instant", "point"),
-                pressure,
-                {"units": "Pa", "long_name": "contact pressure at the wheel's tread nodes"},
-            ),
-            section_wheel_nodes=(("wheel_node", "axis"), wheel.section_nodes, {"units": "m"}),
-            section_wheel_quads=(("wheel_quad", "corner"), wheel.section_quads),
-            section_wheel_displacement=(("wheel_node", "axis"), moved, {"units": "m"}),
-        ).assign_coords(
-            instant_time=coordinate(np.array([k.time for k in self._kept]), "s", "time", "instant"),
-            instant_position=coordinate(
-                np.array([k.position for k in self._kept]), "m", "position of the wheel", "instant"
-            ),
-            point_x=coordinate(
-                np.repeat(wheel.x, len(wheel.y)), "m", "position relative to the wheel", "point"
-            ),
-            point_y=coordinate(
-                np.tile(wheel.y, len(wheel.x)), "m", "position across the rail", "point"
-            ),
-            point_area=coordinate(area, "m^2", "area, of both halves", "point"),
-        )

@@ -1,0 +1,115 @@
+"""Fields that a surface-contact run keeps at chosen instants: pressure, deformed sections."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from contactstudy.contact.coupling import PatchState, SurfaceCoupling
+from contactstudy.contact.points import ContactPoints
+from contactstudy.dynamics import State
+from contactstudy.solids.wheel import WheelFlexibility
+from contactstudy.track.solid import SolidTrack
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class _Kept:
+    position: float
+    time: float
+    hub: float
+    state: PatchState
+    rail: Array  # displacement (k, 2) of the section's nodes
+    plane: float  # X of that section
+
+
+class Instants:
+    """Keeps the contact at the steps nearest to given positions.
+
+    Parameters
+    ----------
+    coupling : SurfaceCoupling
+        Of the run.
+    track : SolidTrack
+    positions : ndarray (n_times,)
+        X of the wheel at every state in m.
+    at : sequence of float
+        Positions wanted in m.
+    """
+
+    def __init__(
+        self,
+        coupling: SurfaceCoupling,
+        track: SolidTrack,
+        positions: Array,
+        at: Sequence[float],
+    ) -> None:
+        self._coupling, self._track, self._positions = coupling, track, positions
+        self._steps = {int(np.argmin(np.abs(positions - x))) for x in at}
+        self._kept: list[_Kept] = []
+
+    def __call__(self, state: State) -> None:
+        """See a state of the run; keep it if it is one of those wanted."""
+        if state.step not in self._steps:
+            return
+        x, last = float(self._positions[state.step]), self._coupling.last
+        section = self._track.section(x, self._coupling.half_length)
+        self._kept.append(
+            _Kept(
+                x,
+                state.time,
+                float(state.u[self._coupling.wheel_dof]),
+                last,
+                section.map @ state.u[section.dofs] - section.residual @ last.surface_load,
+                section.position,
+            )
+        )
+
+    def into(self, data: xr.Dataset, points: ContactPoints, wheel: WheelFlexibility) -> xr.Dataset:
+        """Add pressure fields and the deformed sections to a dataset."""
+        if not self._kept:
+            return data
+        n = len(wheel.x) * len(wheel.y)
+        tread = points.wheel_rows.matrix(n)
+        pressure = np.stack([points.nodal_pressure(k.state.forces) for k in self._kept])
+        first = self._kept[0]
+        moved = wheel.section_response @ (tread.T @ first.state.forces) + [0.0, first.hub]
+        section = self._track.section(first.position, self._coupling.half_length)
+        metre = {"units": "m"}
+
+        def coordinate(values: Array, unit: str, text: str, dim: str) -> tuple:
+            return (dim, values, {"units": unit, "long_name": text})
+
+        data = data.assign(
+            pressure=(
+                ("instant", "point"),
+                pressure,
+                {"units": "Pa", "long_name": "contact pressure at the wheel's tread nodes"},
+            ),
+            section_wheel_nodes=(("wheel_node", "axis"), wheel.section_nodes, metre),
+            section_wheel_quads=(("wheel_quad", "corner"), wheel.section_quads),
+            section_wheel_displacement=(("wheel_node", "axis"), moved, metre),
+            section_rail_nodes=(("rail_node", "axis"), section.nodes, metre),
+            section_rail_quads=(("rail_quad", "corner"), section.quads),
+            section_rail_displacement=(
+                ("rail_node", "axis"),
+                first.rail,
+                metre | {"section_position": first.plane},
+            ),
+        )
+        return data.assign_coords(
+            instant_time=coordinate(np.array([k.time for k in self._kept]), "s", "time", "instant"),
+            instant_position=coordinate(
+                np.array([k.position for k in self._kept]), "m", "position of the wheel", "instant"
+            ),
+            point_x=coordinate(
+                np.repeat(wheel.x, len(wheel.y)), "m", "position relative to the wheel", "point"
+            ),
+            point_y=coordinate(
+                np.tile(wheel.y, len(wheel.x)), "m", "position across the rail", "point"
+            ),
+            point_area=coordinate(tread.T @ points.area, "m^2", "area, of both halves", "point"),
+        )
