@@ -56,4 +56,5 @@ def provenance(
         "versions": versions(),
         "mesh": mesh,
         "files": files,
+        "sources": [f"{name}, SHA-256 {content}" for name, content in files.items()],
     }

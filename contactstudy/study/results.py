@@ -114,7 +114,8 @@ class StudyResults:
         Spectra and profiles for Fig. 1.
     provenance : mapping
         ``seed``, ``hash`` (of all parameters), ``versions`` (package -> version), ``mesh``
-        (the recipe of the solid rail, or None), ``sources``.
+        (the recipe of the solid rail, or None), ``files`` (input file -> SHA-256), ``sources``
+        (lines of text about input files).
     companions : tuple of StudyResults
         Studies whose results stand in the same report.
     """

@@ -23,7 +23,15 @@ from contactstudy.study.files import netcdf_attributes, writing
 
 STORE = "runs"
 # Packages whose code cannot change a run: they only describe, draw or print.
-_NOT_COMPUTING = ("figures", "report", "cli.py", "study/results.py", "study/metrics.py")
+_NOT_COMPUTING = (
+    "figures",
+    "report",
+    "cli.py",
+    "study/forecast.py",
+    "study/metrics.py",
+    "study/results.py",
+    "study/terminal.py",
+)
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,52 @@
+"""What Fig. 1 gets to show, and the warnings that come with an irregularity."""
+
+import numpy as np
+import pytest
+
+from contactstudy.irregularity import RepeatWarning, SmoothRail, paper_spectrum
+from contactstudy.study.loading import parse_study
+from contactstudy.study.roughness import describe, irregularity_of
+
+LONG = {"track": {"length": "480 m"}, "journey": {"to": "400 m"}}
+
+
+def test_the_estimate_lies_on_the_formula():
+    """Table 1: mean difference in dB over the band, but for Welch's bias at its lowest lines."""
+    info = describe(parse_study("demo", {})).info
+    inside = (info.estimate.wavenumber > 0.2) & (info.estimate.wavenumber < 19.9)
+    ratio = info.estimate.density[inside] / paper_spectrum()(info.estimate.wavenumber[inside])
+    print(f"generated against eq. (3): 0 dB ({10 * np.log10(ratio).mean():.3f} dB)")
+    assert abs(10 * np.log10(ratio).mean()) < 0.3
+    assert info.spectrum.label == "eq. (3), Table 1"
+    assert info.profile.position[0] == 0.0 and info.profile.position[-1] == 36.0
+    assert info.measured is None
+
+
+def test_a_study_longer_than_the_repeat_is_warned_about_and_jitter_helps():
+    (warning,) = describe(parse_study("long", LONG)).warnings
+    assert "315.4 m" in warning and "jitter" in warning
+    assert issubclass(RepeatWarning, UserWarning)
+    jittered = LONG | {"irregularity": {"jitter": True}}
+    assert describe(parse_study("long", jittered)).warnings == ()
+    assert describe(parse_study("short", {})).warnings == ()
+
+
+def test_a_smooth_run_and_a_smooth_study():
+    study = parse_study("demo", {})
+    assert isinstance(irregularity_of(study, smooth=True), SmoothRail)
+    smooth = parse_study("demo", {"irregularity": {"spectrum": "smooth"}})
+    assert isinstance(irregularity_of(smooth), SmoothRail)
+    info = describe(smooth).info
+    assert info.spectrum is None and info.estimate is None and info.profile is None
+
+
+def test_lateral_runs_get_the_independent_transverse_profile():
+    study, x = parse_study("demo", {}), np.linspace(0, 36, 1000)
+    vertical, lateral = irregularity_of(study)(x), irregularity_of(study, direction="Y")(x)
+    assert not np.allclose(vertical, lateral)
+
+
+@pytest.mark.parametrize("name", ["german_low", "german_high", "fra6", "tbt3352"])
+def test_other_spectra_by_name(name):
+    info = describe(parse_study("demo", {"irregularity": {"spectrum": name}})).info
+    assert info.spectrum.label != "eq. (3), Table 1" and info.estimate is not None
