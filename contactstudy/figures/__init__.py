@@ -2,12 +2,21 @@
 
 from pathlib import Path
 
-from contactstudy.figures import bands, histories, irregularity, passing, patch, press, section
+from contactstudy.figures import (
+    bands,
+    histories,
+    irregularity,
+    passing,
+    patch,
+    patch_history,
+    press,
+    section,
+)
 from contactstudy.figures.drawing import Drawing
 from contactstudy.figures.style import drawing, save
 from contactstudy.study.results import StudyResults
 
-_FAMILIES = (irregularity, histories, bands, patch, section, press, passing)
+_FAMILIES = (irregularity, histories, bands, patch, patch_history, section, press, passing)
 
 __all__ = ["Drawing", "drawings", "write_figures"]
 

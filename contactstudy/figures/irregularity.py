@@ -52,6 +52,22 @@ def mean_level_difference(one: Spectrum, other: Spectrum) -> tuple[float, float,
     return float(np.mean(10 * np.log10(ratio))), float(low), float(high)
 
 
+def comparisons(info: IrregularityInfo) -> list[str]:
+    """Sentences that say how far estimate and measurement lie from the formula, on average."""
+    sentences = []
+    for other in (info.estimate, info.measured):
+        if info.spectrum is None or other is None:
+            continue
+        mean, low, high = mean_level_difference(other, info.spectrum)
+        if np.isfinite(mean):
+            side = "above" if mean > 0 else "below"
+            sentences.append(
+                f"{_capital(other.label)} lies on average {number(abs(mean), 2)} dB {side} "
+                f"{info.spectrum.label} between {exact(low, 3)} and {exact(high, 3)} rad/m."
+            )
+    return sentences
+
+
 def _lowest(spectrum: Spectrum) -> float:
     return float(spectrum.wavenumber[spectrum.wavenumber > 0][0])
 
@@ -61,17 +77,7 @@ def _spectrum_caption(info: IrregularityInfo) -> str:
         "Power spectral density of the vertical irregularity, two-sided over the angular "
         "wavenumber: the variance is the integral over both signs."
     )
-    base = info.spectrum
-    for other in (info.estimate, info.measured):
-        if base is None or other is None:
-            continue
-        mean, low, high = mean_level_difference(other, base)
-        if np.isfinite(mean):
-            side = "above" if mean > 0 else "below"
-            text += (
-                f" {_capital(other.label)} lies on average {number(abs(mean), 2)} dB {side} "
-                f"{base.label} between {exact(low, 3)} and {exact(high, 3)} rad/m."
-            )
+    text += "".join(f" {sentence}" for sentence in comparisons(info))
     if info.measured is not None:
         low, high = info.measured.band
         text += (

@@ -1,16 +1,11 @@
 """Smooth rail: contact force over a few bays, and its components at the passing wavelengths."""
 
-from dataclasses import dataclass
-
 import numpy as np
-import xarray as xr
 from matplotlib.figure import Figure
 
 from contactstudy.figures.drawing import (
     Drawing,
-    FloatArray,
     exact,
-    has_signal,
     label,
     number,
     position,
@@ -18,102 +13,17 @@ from contactstudy.figures.drawing import (
     values,
     wheel_note,
 )
+from contactstudy.figures.passing_components import (
+    ORDERS,
+    Passing,
+    all_passing,
+    component,
+    spacing,
+)
 from contactstudy.figures.style import BLACK, GREY, figure_legend, new_figure
-from contactstudy.passing import passing_amplitude
 from contactstudy.study.results import StudyResults
 
-ORDERS = 12  # of the support spacing; contains four elements a bay and six cells of 0.1 m
 BAYS_SHOWN = 3
-
-
-@dataclass(frozen=True)
-class Passing:
-    """Components of one run's contact force that repeat with the support spacing.
-
-    Attributes
-    ----------
-    amplitudes : (ORDERS,) array
-        Amplitude in N of the component with wavelength spacing/1, spacing/2, ...
-    static : float
-        Force in the static equilibrium from which the run starts, N.
-    window : (2,) tuple of float
-        Positions evaluated, m: a whole number of bays.
-    """
-
-    amplitudes: FloatArray
-    static: float
-    window: tuple[float, float]
-
-    def percent(self, order: int) -> float:
-        """Amplitude of the component with wavelength spacing/order in % of the static force."""
-        return float(100.0 * self.amplitudes[order - 1] / self.static)
-
-
-def is_smooth(results: StudyResults) -> bool:
-    """Whether every run of the study rolls on a rail without irregularity."""
-    return bool(results.runs) and all(
-        "irregularity" in run and not np.any(run["irregularity"].values)
-        for run in results.runs.values()
-    )
-
-
-def spacing(results: StudyResults) -> float | None:
-    """Support spacing of the study's track in m; None on a continuous foundation."""
-    found = results.config.get("track", {}).get("spacing")  # absent on a Winkler foundation
-    return None if found is None else float(found)
-
-
-def passing(run: xr.Dataset, bay: float) -> Passing | None:
-    """Components of the contact force that repeat with the support spacing `bay` [m].
-
-    Taken over the later half of the run, as many whole bays as it holds: the start from rest
-    has died out there.
-
-    Returns
-    -------
-    Passing or None
-        None where the run is shorter than four bays.
-    """
-    x, force = position(run), values(run, "contact_force")
-    bays = int((x[-1] - x[0]) / bay / 2 + 1e-9)
-    if bays < 2:
-        return None
-    window = (float(x[-1] - bays * bay), float(x[-1]))
-    # One sample more than the window, so that its first end can be interpolated.
-    first = max(int(np.searchsorted(x, window[0])) - 1, 0)
-    amplitudes = passing_amplitude(x[first:], force[first:], bay, ORDERS, bay)
-    return Passing(amplitudes, float(force[0]), window)
-
-
-def all_passing(results: StudyResults) -> dict[str, Passing]:
-    """Components of each run of a smooth study with discrete supports; empty for any other."""
-    bay = spacing(results)
-    if bay is None or not is_smooth(results):
-        return {}
-    found = {
-        name: passing(run, bay)
-        for name, run in results.runs.items()
-        if has_signal(run, "contact_force")
-    }
-    return {name: p for name, p in found.items() if p is not None}
-
-
-def named_orders(results: StudyResults, name: str) -> dict[int, str]:
-    """Return order of the support spacing -> what passes there in the run `name`.
-
-    Sleeper-passing is order 1; element- and cell-passing lie at the number of elements and of
-    cells in a bay, where the model has such.
-    """
-    bay = spacing(results)
-    run = results.config.get("runs", {}).get(name, {})
-    orders = {1: "sleeper"}
-    on_solid = run.get("solver") == "surface" or run.get("rail") == "solid"
-    cell = results.config.get("solid", {}).get("cell_length")
-    if on_solid and cell and bay:
-        orders[round(bay / float(cell))] = "cell"
-    elif "elements_per_bay" in run:
-        orders[int(run["elements_per_bay"])] = "element"
-    return orders
 
 
 def drawings(results: StudyResults) -> list[Drawing]:
@@ -218,11 +128,13 @@ def _bars_caption(results: StudyResults, found: dict[str, Passing]) -> str:
     )
     parts = [f"{label(name)} {number(p.percent(1), 3)} %" for name, p in found.items()]
     text += f" Sleeper-passing: {', '.join(parts)}."
-    worst: dict[str, tuple[float, str]] = {}
-    for name, p in found.items():
-        for order, kind in named_orders(results, name).items():
-            if kind != "sleeper" and order <= ORDERS:
-                worst[kind] = max(worst.get(kind, (0.0, name)), (p.percent(order), name))
-    for kind, (percent, name) in worst.items():
-        text += f" The largest {kind}-passing component is {number(percent, 2)} % ({label(name)})."
+    for kind in ("element", "cell"):
+        found_here = {n: component(results, n, p, kind) for n, p in found.items()}
+        known = {n: a / found[n].static for n, a in found_here.items() if a is not None}
+        if known:
+            name = max(known, key=lambda n: known[n])
+            text += (
+                f" The largest {kind}-passing component is {number(100 * known[name], 2)} % "
+                f"({label(name)})."
+            )
     return text

@@ -1,4 +1,4 @@
-"""The contact patch: pressure at an instant with Hertz's ellipse; area and peak over the run."""
+"""The contact patch: pressure at an instant with Hertz's ellipse over it."""
 
 from dataclasses import dataclass
 
@@ -13,16 +13,13 @@ from contactstudy.figures.drawing import (
     Drawing,
     FloatArray,
     exact,
-    fade_end,
-    has_signal,
     label,
     number,
     position,
-    styles,
     values,
 )
 from contactstudy.figures.hertz_ellipse import HertzPatch, hertz_patch
-from contactstudy.figures.style import BLACK, SHADE, VERMILION, new_figure
+from contactstudy.figures.style import BLACK, VERMILION, new_figure
 from contactstudy.study.results import StudyResults
 
 
@@ -50,7 +47,7 @@ class Patch:
 
 
 def drawings(results: StudyResults) -> list[Drawing]:
-    """Pressure map and patch history of each run that has them."""
+    """Pressure map of each run that has stored one."""
     made = []
     for name, run in results.runs.items():
         several = sum("pressure" in r for r in results.runs.values()) > 1
@@ -66,8 +63,6 @@ def drawings(results: StudyResults) -> list[Drawing]:
                         lambda patch=patch, hertz=hertz: _map(patch, hertz),  # type: ignore[misc]
                     )
                 )
-    if any(has_signal(r, "contact_area") for r in results.runs.values()):
-        made.append(Drawing("patch_history", _history_caption(results), lambda: _history(results)))
     return made
 
 
@@ -186,50 +181,3 @@ def _map_caption(name: str, patch: Patch, hertz: HertzPatch | None) -> str:
         f"({hertz.radii}), whose ellipse has semi-axes of "
         f"{number(hertz.along * 1e3)} mm along and {number(hertz.across * 1e3)} mm across the rail."
     )
-
-
-def _history(results: StudyResults) -> Figure:
-    figure = new_figure(3.4)
-    axes = figure.subplots(2, 1, sharex=True)
-    rows = (
-        ("contact_area", 1e6, "Contact area (mm²)"),
-        ("peak_pressure", 1e-6, "Peak pressure (MPa)"),
-    )
-    start = fade_end(results)
-    for ax, (name, scale, text) in zip(axes, rows, strict=True):
-        for run_name, style in styles(results).items():
-            run = results.runs[run_name]
-            if has_signal(run, name):
-                x = position(run)
-                ax.plot(
-                    x,
-                    values(run, name) * scale,
-                    label=label(run_name),
-                    **style.line | {"linewidth": 0.5},
-                )
-                if start > x[0]:
-                    ax.axvspan(x[0], start, color=SHADE, lw=0, zorder=0)
-        ax.set_ylabel(text)
-        ax.margins(x=0)
-    axes[1].set_xlabel("Position X of the wheel (m)")
-    if len(axes[0].lines) > 1:
-        axes[0].legend(loc="upper right")
-    figure.align_ylabels()
-    return figure
-
-
-def _history_caption(results: StudyResults) -> str:
-    text = "Contact area and highest nodal pressure along the run."
-    start = fade_end(results)
-    for name, run in results.runs.items():
-        if not (has_signal(run, "contact_area") and has_signal(run, "peak_pressure")):
-            continue
-        keep = position(run) >= start
-        area = values(run, "contact_area")[keep] * 1e6
-        peak = values(run, "peak_pressure")[keep] * 1e-6
-        text += (
-            f" After the fade-in the area of {label(name)} lies between {number(area.min())} and "
-            f"{number(area.max())} mm² (mean {number(area.mean())} mm²) and the peak pressure "
-            f"between {number(peak.min())} and {number(peak.max())} MPa."
-        )
-    return text

@@ -5,7 +5,8 @@ from collections.abc import Iterable
 import numpy as np
 
 from contactstudy.figures.drawing import exact, fade_end, label, number, position, speed, values
-from contactstudy.figures.passing import all_passing
+from contactstudy.figures.irregularity import comparisons
+from contactstudy.figures.passing_components import all_passing
 from contactstudy.report.metrics import between, of_run
 from contactstudy.report.quantity import grouped, percent
 from contactstudy.report.tables import describe
@@ -38,10 +39,7 @@ def abstract(results: StudyResults) -> list[str]:
 
 def _case(results: StudyResults) -> str:
     if not results.runs:
-        return (
-            f"This report shows the irregularity of the study {label(results.name)}; "
-            "the study has no runs."
-        )
+        return _irregularity(results)
     run = results.runs[results.reference or next(iter(results.runs))]
     x = position(run)
     count = len(results.runs)
@@ -68,6 +66,20 @@ def _case(results: StudyResults) -> str:
     ]
     text += f" Contact is lost at times in {_listing(lost)}." if lost else " Contact is never lost."
     return text
+
+
+def _irregularity(results: StudyResults) -> str:
+    """What a study without runs is about."""
+    info = results.irregularity
+    text = "This study has no runs; it shows a rail irregularity."
+    if info.profile is not None:
+        x, r = info.profile.position, info.profile.level * 1e3
+        text += (
+            f" Over {exact(float(x[-1] - x[0]), 3)} m the profile ({info.profile.label}) has a root "
+            f"mean square of {number(float(np.std(r)))} mm and a range of "
+            f"{number(float(np.ptp(r)))} mm."
+        )
+    return " ".join([text, *comparisons(info)])
 
 
 def _errors(results: StudyResults) -> dict[str, tuple[float, float, float]]:

@@ -6,7 +6,7 @@ from typing import Any
 import contactstudy
 from contactstudy.figures import Drawing, drawings
 from contactstudy.figures.drawing import label
-from contactstudy.figures.passing import is_smooth
+from contactstudy.figures.passing_components import is_smooth
 from contactstudy.report.abstract import GRADES, abstract
 from contactstudy.report.quantity import quantity
 from contactstudy.report.tables import (

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from contactstudy.figures.drawing import SIGNALS, Signal, label
-from contactstudy.figures.passing import ORDERS, all_passing, named_orders
+from contactstudy.figures.passing_components import all_passing, component
 from contactstudy.report.metrics import between, of_run
 from contactstudy.report.quantity import fixed, grouped, percent, quantity, rounded
 from contactstudy.study.results import StudyResults
@@ -198,16 +198,13 @@ def passing_table(results: StudyResults) -> Block | None:
     found = all_passing(results)
     if not found:
         return None
-    kinds = {name: named_orders(results, name) for name in found}
     rows = []
     for name, p in found.items():
         row = [label(name), describe(results, name)[0], rounded(p.static * 1e-3, 5)]
         for kind in ("sleeper", "element", "cell"):
-            order = next((n for n, k in kinds[name].items() if k == kind), None)
-            if order is None or order > ORDERS:
-                row += ["–", "–"]
-            else:
-                row += [rounded(p.amplitudes[order - 1]), rounded(p.percent(order), 2)]
+            amplitude = component(results, name, p, kind)
+            share = None if amplitude is None else 100 * amplitude / p.static
+            row += [rounded(amplitude), rounded(share, 2)]
         rows.append(row)
     columns = ["Run", "Rail", "Static (kN)", "Sleeper (N)", "(%)"]
     columns += ["Element (N)", "(%)", "Cell (N)", "(%)"]
@@ -217,5 +214,6 @@ def passing_table(results: StudyResults) -> Block | None:
         "Amplitudes of the contact force on the smooth rail at the sleeper-, element- and "
         "cell-passing wavelengths, in N and in per cent of the static load.",
         2,
-        "A dash where a model has no elements or cells of a length that divides a bay.",
+        "Element and cell: the largest amplitude at that length and its fractions down to a "
+        "twelfth of a bay; a dash where a model has none.",
     )

@@ -6,7 +6,7 @@ import pytest
 from contactstudy.figures import drawings, write_figures
 from contactstudy.figures.drawing import exact, number
 from contactstudy.figures.irregularity import mean_level_difference
-from contactstudy.figures.passing import all_passing
+from contactstudy.figures.passing_components import all_passing
 from contactstudy.figures.patch import patch_of
 from contactstudy.figures.style import drawing, run_styles, save
 from contactstudy.study.results import Spectrum

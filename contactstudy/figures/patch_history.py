@@ -1,0 +1,70 @@
+"""Contact area and highest pressure over the run."""
+
+from matplotlib.figure import Figure
+
+from contactstudy.figures.drawing import (
+    Drawing,
+    fade_end,
+    has_signal,
+    label,
+    number,
+    position,
+    styles,
+    values,
+)
+from contactstudy.figures.style import SHADE, new_figure
+from contactstudy.study.results import StudyResults
+
+
+def drawings(results: StudyResults) -> list[Drawing]:
+    """One figure with all runs that record their contact area, else none."""
+    if any(has_signal(run, "contact_area") for run in results.runs.values()):
+        return [Drawing("patch_history", _caption(results), lambda: _draw(results))]
+    return []
+
+
+def _draw(results: StudyResults) -> Figure:
+    figure = new_figure(3.4)
+    axes = figure.subplots(2, 1, sharex=True)
+    rows = (
+        ("contact_area", 1e6, "Contact area (mm²)"),
+        ("peak_pressure", 1e-6, "Peak pressure (MPa)"),
+    )
+    start = fade_end(results)
+    for ax, (name, scale, text) in zip(axes, rows, strict=True):
+        for run_name, style in styles(results).items():
+            run = results.runs[run_name]
+            if has_signal(run, name):
+                x = position(run)
+                ax.plot(
+                    x,
+                    values(run, name) * scale,
+                    label=label(run_name),
+                    **style.line | {"linewidth": 0.5},
+                )
+                if start > x[0]:
+                    ax.axvspan(x[0], start, color=SHADE, lw=0, zorder=0)
+        ax.set_ylabel(text)
+        ax.margins(x=0)
+    axes[1].set_xlabel("Position X of the wheel (m)")
+    if len(axes[0].lines) > 1:
+        axes[0].legend(loc="upper right")
+    figure.align_ylabels()
+    return figure
+
+
+def _caption(results: StudyResults) -> str:
+    text = "Contact area and highest nodal pressure along the run."
+    start = fade_end(results)
+    for name, run in results.runs.items():
+        if not (has_signal(run, "contact_area") and has_signal(run, "peak_pressure")):
+            continue
+        keep = position(run) >= start
+        area = values(run, "contact_area")[keep] * 1e6
+        peak = values(run, "peak_pressure")[keep] * 1e-6
+        text += (
+            f" After the fade-in the area of {label(name)} lies between {number(area.min())} and "
+            f"{number(area.max())} mm² (mean {number(area.mean())} mm²) and the peak pressure "
+            f"between {number(peak.min())} and {number(peak.max())} MPa."
+        )
+    return text
