@@ -75,8 +75,8 @@ def _irregularity(results: StudyResults) -> str:
     if info.profile is not None:
         x, r = info.profile.position, info.profile.level * 1e3
         text += (
-            f" Over {exact(float(x[-1] - x[0]), 3)} m the profile ({info.profile.label}) has a root "
-            f"mean square of {number(float(np.std(r)))} mm and a range of "
+            f" Over {exact(float(x[-1] - x[0]), 3)} m the profile ({info.profile.label}) has a "
+            f"root mean square of {number(float(np.std(r)))} mm and a range of "
             f"{number(float(np.ptp(r)))} mm."
         )
     return " ".join([text, *comparisons(info)])
