@@ -1,0 +1,45 @@
+import numpy as np
+import pytest
+import scipy.sparse as sp
+
+from contactstudy.banded import Factor, LinearSystem
+from contactstudy.exceptions import NumericalError
+
+
+def banded(n, bandwidth, seed=0):
+    rng = np.random.default_rng(seed)
+    lower = np.tril(rng.standard_normal((n, n)))
+    lower[np.subtract.outer(np.arange(n), np.arange(n)) > bandwidth] = 0.0
+    lower[np.diag_indices(n)] = 2.0 + rng.random(n) + bandwidth
+    return lower @ lower.T
+
+
+@pytest.mark.parametrize(
+    ("n", "bandwidth"), [(1, 0), (5, 0), (8, 3), (17, 16), (100, 7), (203, 41)]
+)
+def test_solution_equals_dense(n, bandwidth):
+    matrix = banded(n, bandwidth)
+    factor = Factor(sp.csr_array(matrix))
+    rng = np.random.default_rng(1)
+    b = rng.standard_normal((n, 3))
+    kept = b.copy()
+    exact = np.linalg.solve(matrix, b)
+    np.testing.assert_allclose(factor.solve(b), exact, rtol=1e-11, atol=1e-14)
+    np.testing.assert_allclose(factor.solve(b[:, 0]), exact[:, 0], rtol=1e-11, atol=1e-14)
+    np.testing.assert_array_equal(b, kept)
+    assert factor.half_bandwidth == min(bandwidth, n - 1)
+
+
+@pytest.mark.parametrize("bad", [np.diag([1.0, -1.0]), np.zeros((2, 2)), np.diag([1.0, np.nan])])
+def test_not_positive_definite_is_reported(bad):
+    with pytest.raises(NumericalError, match="2 dofs"):
+        Factor(sp.csr_array(bad))
+
+
+def test_stacked_systems_and_combination():
+    one = LinearSystem(*(sp.csr_array(k * np.eye(2)) for k in (1.0, 2.0, 3.0)))
+    two = LinearSystem(*(sp.csr_array(k * np.eye(1)) for k in (10.0, 20.0, 30.0)))
+    stacked = LinearSystem.stacked(one, two)
+    assert stacked.n_dofs == 3
+    combined = stacked.combine(1.0, 10.0, 100.0).toarray()
+    np.testing.assert_allclose(combined, np.diag([321.0, 321.0, 3210.0]))
