@@ -16,7 +16,8 @@ from contactstudy.solids.wheel import WheelFlexibility, WheelRecipe, elastic_whe
 from contactstudy.solids.wheel_section import WheelDimensions
 from contactstudy.solvers.journey import Journey
 from contactstudy.solvers.surface import PRESS_LOADS, geometry_press
-from contactstudy.study.schema import PointRun, RunTable, Study
+from contactstudy.study.runs import PointRun, RunTable
+from contactstudy.study.schema import Study
 from contactstudy.track.model import (
     Ballast,
     DiscreteSupports,

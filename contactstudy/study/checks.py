@@ -6,15 +6,9 @@ from collections.abc import Mapping
 from typing import Any
 
 from contactstudy.study.messages import complaint
-from contactstudy.study.schema import (
-    IrregularityTable,
-    JourneyTable,
-    PointRun,
-    RunTable,
-    Section,
-    SolidTable,
-    TrackTable,
-)
+from contactstudy.study.runs import PointRun, RunTable
+from contactstudy.study.section import Section
+from contactstudy.study.tables import IrregularityTable, JourneyTable, SolidTable, TrackTable
 
 _SLACK = 1e-9  # relative, for lengths that were given in decimal
 

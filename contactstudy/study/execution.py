@@ -10,7 +10,8 @@ import xarray as xr
 from contactstudy.solids.cache import entry_path
 from contactstudy.study import build
 from contactstudy.study.roughness import irregularity_of
-from contactstudy.study.schema import PointRun, Study, SurfaceRun
+from contactstudy.study.runs import PointRun, SurfaceRun
+from contactstudy.study.schema import Study
 from contactstudy.sweep import Progress
 
 

@@ -13,7 +13,8 @@ from contactstudy.study import build
 from contactstudy.study.execution import is_condensed
 from contactstudy.study.loading import load_companions
 from contactstudy.study.roughness import describe
-from contactstudy.study.schema import PointRun, Study
+from contactstudy.study.runs import PointRun
+from contactstudy.study.schema import Study
 from contactstudy.track.beam import BeamTrack
 from contactstudy.track.model import DiscreteSupports, Track
 

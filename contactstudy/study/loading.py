@@ -15,7 +15,8 @@ from contactstudy.exceptions import InputError
 from contactstudy.resources import resource
 from contactstudy.study import checks
 from contactstudy.study.messages import complaint, did_you_mean, from_validation, unknown
-from contactstudy.study.schema import SECTIONS, SOLVERS, Section, Study
+from contactstudy.study.schema import SECTIONS, SOLVERS, Study
+from contactstudy.study.section import Section
 
 _TOP_LEVEL = ("title", "description", "companions", *SECTIONS, "runs", "compare")
 _RUN_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")

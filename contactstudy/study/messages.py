@@ -8,7 +8,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from contactstudy.study.schema import Section
+from contactstudy.study.section import Section
 
 _KINDS = {
     "bool_type": "must be true or false",

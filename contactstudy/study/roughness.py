@@ -10,8 +10,9 @@ import numpy as np
 
 from contactstudy import irregularity as irr
 from contactstudy.study.results import IrregularityInfo, Level, Spectrum
-from contactstudy.study.schema import IrregularityTable, Study
+from contactstudy.study.schema import Study
 from contactstudy.study.store import file_digest
+from contactstudy.study.tables import IrregularityTable
 
 PROFILE_STEP = 0.01  # m, of the profile drawn in Fig. 1b
 CURVE_POINTS = 400  # of a spectrum's formula

@@ -79,7 +79,7 @@ def code_digest(everything: bool = False) -> str:
         if not (name := path.relative_to(root).as_posix()).startswith(skipped)
     }
     if everything:
-        sums |= {path.name: file_digest(path) for path in sorted(resource("report").rglob("*.typ"))}
+        sums |= {path.name: file_digest(path) for path in sorted(resource("report").glob("*.*"))}
     for path in sorted(resource("meshes").rglob("*.toml")):
         sums[f"meshes/{path.name}"] = file_digest(path)
     return digest([contactstudy.__version__, sums])

@@ -17,7 +17,7 @@ import xarray as xr
 from contactstudy import cli
 from contactstudy.irregularity import paper_spectrum
 from contactstudy.solids.cache import entry_path
-from contactstudy.study import build, runner, store
+from contactstudy.study import build, compute, runner, store
 from contactstudy.study.loading import load_study
 from contactstudy.study.results import read_results
 from contactstudy.study.roughness import describe
@@ -133,7 +133,7 @@ def test_bad_csv(capfd, short, tmp_path, content, message, command):
 
 
 def test_unwritable_folder_is_refused_before_anything_runs(capfd, short, tmp_path, monkeypatch):
-    monkeypatch.setattr(runner, "run_tasks", lambda *a, **k: pytest.fail("must not compute"))
+    monkeypatch.setattr(compute, "run_tasks", lambda *a, **k: pytest.fail("must not compute"))
     (tmp_path / "file").write_text("")
     assert "cannot be written" in refused(capfd, "run", short, "--out", tmp_path / "file" / "out")
 
@@ -170,7 +170,7 @@ def test_what_a_run_writes(out):
 
 def test_a_second_call_computes_and_draws_nothing(capfd, short, out, monkeypatch):
     before = {p: p.read_bytes() for p in out.rglob("*") if p.is_file()}
-    monkeypatch.setattr(runner, "run_tasks", lambda *a, **k: pytest.fail("must not compute"))
+    monkeypatch.setattr(compute, "run_tasks", lambda *a, **k: pytest.fail("must not compute"))
     monkeypatch.setattr(runner, "render", lambda *a, **k: pytest.fail("must not draw"))
     assert cli.main(["run", str(short), "--out", str(out)]) == 0
     assert "up to date" in capfd.readouterr().err
@@ -180,7 +180,7 @@ def test_a_second_call_computes_and_draws_nothing(capfd, short, out, monkeypatch
 def test_a_missing_figure_or_report_is_made_again_from_finished_runs(short, out, monkeypatch):
     (out / "report.pdf").unlink()
     before = (out / "result.nc").read_bytes()
-    monkeypatch.setattr(runner, "run_tasks", lambda *a, **k: pytest.fail("must not compute"))
+    monkeypatch.setattr(compute, "run_tasks", lambda *a, **k: pytest.fail("must not compute"))
     assert cli.main(["run", str(short), "--out", str(out)]) == 0
     assert (out / "report.pdf").exists() and (out / "result.nc").read_bytes() == before
 
@@ -209,8 +209,8 @@ def test_a_run_that_breaks_down_keeps_the_others(capfd, short, tmp_path, monkeyp
     module = tmp_path / "breaking.py"
     module.write_text(
         "from contactstudy.exceptions import NumericalError\n"
-        "from contactstudy.study import runner\n"
-        "execute = runner.execute\n"
+        "from contactstudy.study import compute\n"
+        "execute = compute.execute\n"
         "def breaking(study, run, path, progress):\n"
         "    if run == 'point':\n"
         "        raise NumericalError('step 7 at X = 1.3 m: the force is not finite')\n"
@@ -218,7 +218,7 @@ def test_a_run_that_breaks_down_keeps_the_others(capfd, short, tmp_path, monkeyp
     )
     monkeypatch.syspath_prepend(str(tmp_path))
     breaking = importlib.import_module("breaking")
-    monkeypatch.setattr(runner, "execute", breaking.breaking)
+    monkeypatch.setattr(compute, "execute", breaking.breaking)
     out = tmp_path / "out"
     assert cli.main(["run", str(short), "--out", str(out)]) == 1
     err = capfd.readouterr().err

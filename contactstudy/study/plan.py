@@ -1,0 +1,75 @@
+"""A study whose inputs have been read, with the hashes by which finished work is found."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from contactstudy.provenance import versions
+from contactstudy.study import store
+from contactstudy.study.loading import load_companions
+from contactstudy.study.results import IrregularityInfo
+from contactstudy.study.roughness import describe
+from contactstudy.study.schema import Study
+
+
+@dataclass(frozen=True)
+class Plan:
+    """A study whose inputs have been read, and where its results go."""
+
+    study: Study
+    out_dir: Path
+    irregularity: IrregularityInfo
+    inputs: Mapping[str, Any]
+    files: Mapping[str, str]
+    warnings: tuple[str, ...] = ()
+    companions: tuple[Plan, ...] = ()
+
+    @property
+    def all(self) -> tuple[Plan, ...]:
+        """This plan, then its companions'."""
+        return (self, *(p for c in self.companions for p in c.all))
+
+    def run_key(self, run: str) -> str:
+        """Hash of everything that goes into one run, code included."""
+        study = self.study
+        table = study.runs[run].resolved() | {"time_step": study.time_step(run)}
+        shared = {k: v for k, v in self.inputs.items() if k not in ("runs", "compare", "solid")}
+        # Beams take their section from the solid's mesh, so its size matters to them as well.
+        solid = study.solid.resolved()
+        shared["solid"] = solid if study.runs[run].needs_solid else solid["mesh_size"]
+        shared["packages"] = versions()
+        return store.digest([run, table, shared, dict(self.files), store.code_digest()])
+
+    def key(self) -> str:
+        """Hash of everything that goes into the results, drawing and printing included."""
+        texts = [self.study.name, self.study.title, self.study.description]
+        own = [texts, self.inputs, dict(self.files), versions(), store.code_digest(True)]
+        return store.digest([own, [companion.key() for companion in self.companions]])
+
+
+def plan_study(study: Study, out_dir: Path) -> Plan:
+    """Read a study's inputs and its companions'.
+
+    Raises
+    ------
+    InputError
+        When an input file cannot be used, or a companion's study file.
+    """
+    companions = [plan_study(c, out_dir / c.name) for c in load_companions(study)]
+    described = describe(study)
+    inputs = study.config()
+    for key in ("file", "measured_overlay"):
+        if inputs["irregularity"].get(key):  # the content counts, and paths are the machine's
+            inputs["irregularity"][key] = Path(inputs["irregularity"][key]).name
+    return Plan(
+        study=study,
+        out_dir=out_dir,
+        irregularity=described.info,
+        inputs=inputs,
+        files=described.files,
+        warnings=described.warnings,
+        companions=tuple(companions),
+    )
