@@ -160,10 +160,11 @@ def march(
     u, v, a, load = start.u, start.v, start.a, start.load
     for step in range(1, n_steps + 1):
         ext = load_at(step)
-        rhs = wf * ext + alpha_f * load
+        rhs = wf * ext
         _add_product(*mass, of_mass, u, v, a, rhs)
         _add_product(*damping, of_damping, u, v, a, rhs)
         if alpha_f != 0.0:
+            rhs += alpha_f * load
             _add_product(*stiffness, of_stiffness, u, v, a, rhs)
         u_new = factor.solve(rhs)
         contact = None

@@ -96,35 +96,47 @@ def contact_forces(
     NumericalError
         If the nonlinear equations of several wheels do not converge.
     """
+    if len(free_gap) == 1:
+        W, gap, load = float(compliance[0, 0]), float(free_gap[0]), float(static_loads[0])
+        return np.array([_force_of_one(law, W, gap, load, bilateral)])
     match law:
         case MovingForce():
             return static_loads.copy()
         case HertzSpring(stiffness=k_hertz):
-            if len(free_gap) == 1:
-                force = _hertz_one(k_hertz, float(compliance[0, 0]), float(free_gap[0]))
-                return np.array([force])
             return _hertz_many(k_hertz, compliance, free_gap)
         case LinearSpring(stiffness=k_r):
             # lambda = F - k_r (g* + W lambda)  =>  (W + 1/k_r) lambda = F/k_r - g*
-            flexibility = compliance.copy()
-            flexibility.flat[:: len(free_gap) + 1] += 1.0 / k_r
-            return _linear(flexibility, static_loads / k_r - free_gap, bilateral)
+            flexibility = compliance + np.eye(len(free_gap)) / k_r
+            return _linear_many(flexibility, static_loads / k_r - free_gap, bilateral)
         case RigidContact():
-            return _linear(compliance, -free_gap, bilateral)
+            return _linear_many(compliance, -free_gap, bilateral)
 
 
-def _linear(flexibility: np.ndarray, target: np.ndarray, bilateral: bool) -> np.ndarray:
+def _force_of_one(
+    law: ContactLaw, compliance: float, free_gap: float, static_load: float, bilateral: bool
+) -> float:
+    """Closed forms for a single wheel."""
+    match law:
+        case MovingForce():
+            return static_load
+        case HertzSpring(stiffness=k_hertz):
+            return _hertz_one(k_hertz, compliance, free_gap)
+        case LinearSpring(stiffness=k_r):
+            force = (static_load - k_r * free_gap) / (1.0 + k_r * compliance)
+        case RigidContact():
+            force = -free_gap / compliance
+    # max(0.0, nan) would hide a number that is none
+    return 0.0 if force < 0.0 and not bilateral else force
+
+
+def _linear_many(flexibility: np.ndarray, target: np.ndarray, bilateral: bool) -> np.ndarray:
     """Solve flexibility @ lambda = target, or its complementarity problem with lambda >= 0.
 
-    One wheel has a closed form. For several the linear solution counts if nowhere tensile, and
-    otherwise projected Gauss-Seidel sweeps, which converge for every positive definite matrix,
-    find who is apart.
+    The linear solution counts if nowhere tensile. Otherwise projected Gauss-Seidel sweeps, which
+    converge for every positive definite matrix, find who is apart.
     """
-    if len(target) == 1:
-        force = target / flexibility[0]
-        return force if bilateral else np.maximum(force, 0.0)
     force = np.linalg.solve(flexibility, target)
-    if bilateral or np.all(force >= 0.0):
+    if bilateral or not np.any(force < 0.0):
         return force
     force = np.maximum(force, 0.0)
     for _ in range(1000 * _ITERATIONS):

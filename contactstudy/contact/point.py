@@ -15,6 +15,7 @@ import numpy as np
 from contactstudy.banded import Factor
 from contactstudy.contact.laws import ContactLaw, contact_forces
 from contactstudy.dynamics import ContactStep
+from contactstudy.rows import dense_rows, row_products, row_values
 
 
 class PointCoupling:
@@ -35,6 +36,11 @@ class PointCoupling:
         (nw,) [N].
     bilateral : bool
         Whether the contact holds in tension (lateral direction).
+
+    Attributes
+    ----------
+    local_compliance : ndarray
+        As given.
     """
 
     def __init__(
@@ -53,8 +59,7 @@ class PointCoupling:
         wheel = np.broadcast_to(wheel_dofs[None, :, None], (n_times, n_wheels, 1))
         self._dofs = np.concatenate((wheel, rail_dofs), axis=2)
         self._weights = np.concatenate((np.ones((n_times, n_wheels, 1)), -rail_weights), axis=2)
-        self._compliance, self._irregularity = local_compliance, irregularity
-        self._wheels = np.arange(n_wheels)[:, None]
+        self.local_compliance, self._irregularity = local_compliance, irregularity
 
     def attach(self, factor: Factor, scale: float) -> None:
         """Take the factor of the system and the share of the new force in a step."""
@@ -63,13 +68,13 @@ class PointCoupling:
     def __call__(self, step: int, u_free: np.ndarray) -> ContactStep:
         """Forces at the end of a step; every row adds up, two wheels in one element too."""
         dofs, weights = self._dofs[step], self._weights[step]
-        rows = np.zeros((len(dofs), self._factor.n))
-        np.add.at(rows, (self._wheels, dofs), weights)  # B
-        moved = np.array([self._factor.solve(row) for row in rows])  # B S^-1
-        moved *= self._scale
+        rows = dense_rows(dofs, weights, self._factor.n)  # B
+        moved = np.empty_like(rows)  # (1-af) B S^-1
+        for i, row in enumerate(rows):
+            np.multiply(self._scale, self._factor.solve(row), out=moved[i])
         # W_ij = (1-af) B_i S^-1 B_j^T, and the loaded element's own share on the diagonal
-        compliance = moved @ rows.T
-        compliance.flat[:: len(dofs) + 1] += self._compliance[step]
-        free_gap = np.einsum("ij,ij->i", weights, u_free[dofs]) - self._irregularity[step]
+        compliance = row_products(dofs, weights, moved)
+        compliance.flat[:: len(dofs) + 1] += self.local_compliance[step]
+        free_gap = row_values(dofs, weights, u_free) - self._irregularity[step]
         force = contact_forces(self._law, compliance, free_gap, self._loads, self._bilateral)
         return ContactStep(force @ rows, force @ moved, {"contact_force": force})

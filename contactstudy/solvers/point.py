@@ -106,6 +106,7 @@ def point_contact(
         setup_began=began,
         attrs={"solver": "point", **_describe_rail(discrete), **_describe_law(law)},
         progress=progress,
+        local_compliance=coupling.local_compliance,
     )
 
 

@@ -11,6 +11,7 @@ import xarray as xr
 
 from contactstudy.banded import LinearSystem
 from contactstudy.dynamics import Coupling, Integrator, State, march, static_start
+from contactstudy.rows import row_values
 from contactstudy.solvers.dataset import history_dataset
 from contactstudy.solvers.journey import Journey
 from contactstudy.track.model import Direction, Track
@@ -115,6 +116,7 @@ def run(
     attrs: Mapping[str, object] | None = None,
     progress: Progress | None = None,
     on_state: Callable[[State], None] | None = None,
+    local_compliance: np.ndarray | None = None,
 ) -> xr.Dataset:
     """Run and record.
 
@@ -135,6 +137,9 @@ def run(
         Called with (steps done, steps) now and then.
     on_state : callable, optional
         Sees every state, the start included.
+    local_compliance : ndarray, optional
+        (n_times, n_wheels) what the contact force adds to the deflection of the rail under the
+        wheel beyond the track's dofs [m/N]; none when the coupling records that itself.
 
     Returns
     -------
@@ -147,7 +152,6 @@ def run(
     rail_dofs, rail_weights = (
         rows.reshape(n_times, n_wheels, -1) for rows in track.rail_rows(positions.ravel())
     )
-    local = track.local_compliance(positions.ravel()).reshape(positions.shape)
     station_dofs, station_weights = track.rail_rows(np.asarray(journey.stations, dtype=float))
     stations = np.empty((n_times, len(journey.stations)))
     wheel_u, wheel_a, rail_u = (np.empty(positions.shape) for _ in range(3))
@@ -164,9 +168,9 @@ def run(
         for name, value in state.contact.record.items():
             recorded[name][step] = value
         wheel_u[step], wheel_a[step] = u[wheels], state.a[wheels]
-        rail_u[step] = (rail_weights[step] * u[rail_dofs[step]]).sum(axis=1)
+        rail_u[step] = row_values(rail_dofs[step], rail_weights[step], u)
         if len(journey.stations):
-            stations[step] = (station_weights * u[station_dofs]).sum(axis=1)
+            stations[step] = row_values(station_dofs, station_weights, u)
         if on_state is not None:
             on_state(state)
 
@@ -188,8 +192,8 @@ def run(
             progress(state.step, n_steps)
     stepping_ended = time.perf_counter()
 
-    # the loaded element's own deflection belongs to the rail under the wheel
-    rail_u -= local * recorded["contact_force"]
+    if local_compliance is not None:
+        rail_u -= local_compliance * recorded["contact_force"]
     return history_dataset(
         journey,
         positions,

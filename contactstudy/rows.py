@@ -1,0 +1,35 @@
+"""Kernels on sparse rows, each a few dofs and weights: what the steps do most often."""
+
+import numpy as np
+from numba import njit
+
+
+@njit(cache=True)
+def row_values(dofs: np.ndarray, weights: np.ndarray, u: np.ndarray) -> np.ndarray:
+    """Values of m rows at a vector: sum over k of weights (m, k) times u[dofs (m, k)]."""
+    values = np.zeros(dofs.shape[0])
+    for i in range(dofs.shape[0]):
+        for k in range(dofs.shape[1]):
+            values[i] += weights[i, k] * u[dofs[i, k]]
+    return values
+
+
+@njit(cache=True)
+def dense_rows(dofs: np.ndarray, weights: np.ndarray, n: int) -> np.ndarray:
+    """The rows written out, (m, n); equal dofs in a row add up."""
+    rows = np.zeros((dofs.shape[0], n))
+    for i in range(dofs.shape[0]):
+        for k in range(dofs.shape[1]):
+            rows[i, dofs[i, k]] += weights[i, k]
+    return rows
+
+
+@njit(cache=True)
+def row_products(dofs: np.ndarray, weights: np.ndarray, vectors: np.ndarray) -> np.ndarray:
+    """Every row at every vector (p, n), as (m, p)."""
+    products = np.zeros((dofs.shape[0], vectors.shape[0]))
+    for i in range(dofs.shape[0]):
+        for j in range(vectors.shape[0]):
+            for k in range(dofs.shape[1]):
+                products[i, j] += weights[i, k] * vectors[j, dofs[i, k]]
+    return products
