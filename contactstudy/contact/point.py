@@ -29,7 +29,7 @@ class PointCoupling:
     rail_dofs, rail_weights : ndarray
         (n_times, nw, k) row of the rail's displacement under each wheel at each state.
     local_compliance : ndarray
-        (n_times, nw) c [m/N].
+        (n_times, nw) c [m/N]. Two wheels within one element do not share it: each feels its own.
     irregularity : ndarray
         (n_times, nw) r [m].
     static_loads : ndarray

@@ -142,6 +142,10 @@ def point_coupling(
 
 def _law_problems(law: ContactLaw, direction: Direction, integrator: Integrator) -> list[str]:
     problems = []
+    if not isinstance(law, ContactLaw):
+        problems.append(
+            f"law = {law!r}: must be a LinearSpring, RigidContact, HertzSpring or MovingForce"
+        )
     if direction == "Y" and isinstance(law, HertzSpring):
         problems.append("law = HertzSpring with direction = 'Y': Hertz's law is vertical only")
     if isinstance(law, RigidContact) and integrator.constraint_radius > 1.0 - 1e-6:

@@ -120,6 +120,20 @@ def test_pad_averages_a_linear_deflection_exactly():
     np.testing.assert_allclose(pad_forces / 65e6, [0.04, 0.6, 1.16], rtol=1e-12)
 
 
+def test_slab_and_rail_lifted_together_weigh_and_resist_what_they_should():
+    slab, length = Slab(), 6.0
+    support = DiscreteSupports(layer=slab)
+    beam = BeamTrack(Track(support=support, length=length, ends="free"), elements_per_bay=2)
+    lift = np.zeros(beam.n_dofs)
+    rail_dofs = beam._final_dof[: 2 * beam.n_elements + 2]
+    below = np.setdiff1d(np.arange(beam.n_dofs), rail_dofs)  # slab: w, theta at each seat
+    lift[rail_dofs[0::2]] = lift[below[0::2]] = 1.0
+    assert lift @ beam.stiffness @ lift == pytest.approx(slab.stiffness * length, rel=1e-9)
+    assert lift @ beam.damping @ lift == pytest.approx(slab.damping * length, rel=1e-9)
+    mass = (Rail().mass_per_length + slab.mass_per_length) * length + 11 * support.sleeper_mass
+    assert lift @ beam.mass @ lift == pytest.approx(mass, rel=1e-9)
+
+
 def test_inner_dofs_on_a_foundation_leave_the_exact_solution():
     EI, k, x = 6.4155e6, 30e6, 18.07
     beta = (k / (4 * EI)) ** 0.25

@@ -188,6 +188,8 @@ def test_every_problem_of_a_call_is_reported_at_once():
         point_contact(
             TRACK, wheel_column(), SmoothRail(), SHORT, law=HertzSpring(9e10), direction="Y"
         )
+    with pytest.raises(InputError, match=r"law = 1000000000\.0: must be a LinearSpring"):
+        point_contact(TRACK, wheel_column(), SmoothRail(), SHORT, law=1e9)
     # the trailing wheel counts too
     pair = train([wheel_column()] * 2, [0.0, -3.5])
     with pytest.raises(InputError, match=r"from -0\.5 m to 5 m: must stay on the track, 0 to 9 m"):
