@@ -1,6 +1,6 @@
 """Rail and wheel in section, deformed: drawn where a run carries the meshes of both."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import xarray as xr
@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 
-from contactstudy.figures.drawing import Drawing, FloatArray, exact, label, number
+from contactstudy.figures.drawing import Drawing, FloatArray, exact, label, number, position, values
 from contactstudy.figures.style import BLACK, GREY, new_figure
 from contactstudy.study.results import StudyResults
 
@@ -34,21 +34,31 @@ class Section:
 
 
 def drawings(results: StudyResults) -> list[Drawing]:
-    """One figure for the first run that carries section meshes, else none."""
+    """One figure for the first run that carries the sections of both bodies, else none."""
     for name, run in results.runs.items():
-        rail = section_of(run, "rail")
-        if rail is None:
+        rail, wheel = section_of(run, "rail"), section_of(run, "wheel")
+        if rail is None or wheel is None:
             continue
-        wheel = section_of(run, "wheel")
+        # The irregularity lies between the bodies; without it they are drawn in touch.
+        level = irregularity_at_instant(run)
+        wheel = replace(wheel, displacement=wheel.displacement - np.array([0.0, level]))
         factor = magnification(rail, wheel)
         return [
             Drawing(
                 "deformed_section",
-                _caption(name, run, rail, wheel, factor),
+                _caption(name, run, rail, wheel, factor, level),
                 lambda rail=rail, wheel=wheel, factor=factor: _draw(rail, wheel, factor),  # type: ignore[misc]
             )
         ]
     return []
+
+
+def irregularity_at_instant(run: xr.Dataset) -> float:
+    """Irregularity in m under the wheel at the instant whose sections are kept, the first."""
+    if "instant_position" not in run or "irregularity" not in run:
+        return 0.0
+    at = float(np.asarray(run["instant_position"].values).ravel()[0])
+    return float(np.interp(at, position(run), values(run, "irregularity")))
 
 
 def section_of(run: xr.Dataset, body: str) -> Section | None:
@@ -65,14 +75,12 @@ def section_of(run: xr.Dataset, body: str) -> Section | None:
     return Section(nodes, quads, moved)
 
 
-def magnification(rail: Section, wheel: Section | None) -> float:
+def magnification(rail: Section, wheel: Section) -> float:
     """Return a round factor (1, 2 or 5 times a power of ten) by which displacements are drawn.
 
-    Only what deforms is magnified: each body's mean displacement is drawn with the same factor,
-    so that the bodies stay in touch.
+    Both bodies' whole displacements are drawn with it, so that they stay together.
     """
-    bodies = [rail] if wheel is None else [rail, wheel]
-    largest = max(float(np.abs(b.displacement).max()) for b in bodies)
+    largest = max(float(np.abs(b.displacement).max()) for b in (rail, wheel))
     if largest == 0.0:
         return 1.0
     height = float(np.ptp(rail.nodes[:, 1]))
@@ -81,21 +89,34 @@ def magnification(rail: Section, wheel: Section | None) -> float:
     return float(max(s * decade for s in (1.0, 2.0, 5.0) if s * decade <= wanted * (1 + 1e-9)))
 
 
-def _draw(rail: Section, wheel: Section | None, factor: float) -> Figure:
-    figure = new_figure(4.2, equal_axes=True)
-    whole, near = figure.subplots(1, 2, width_ratios=[1.0, 1.25])
-    bodies = [rail] if wheel is None else [rail, wheel]
-    low = min(b.displacement[:, 1].min() for b in bodies) * 1e3
-    high = max(b.displacement[:, 1].max() for b in bodies) * 1e3
-    for body in bodies:
+def mean_sink(body: Section) -> float:
+    """Mean vertical displacement in m over the area of a section."""
+    y, z = np.moveaxis(body.nodes[body.quads], 2, 0)
+    # shoelace formula, each quad about its own corners
+    area = 0.5 * np.abs(np.sum(y * np.roll(z, -1, 1) - np.roll(y, -1, 1) * z, axis=1))
+    return float(np.average(body.displacement[:, 1][body.quads].mean(axis=1), weights=area))
+
+
+def _draw(rail: Section, wheel: Section, factor: float) -> Figure:
+    figure = new_figure(4.0, equal_axes=True)
+    whole, near = figure.subplots(1, 2, width_ratios=[1.0, 2.0])
+    sink = mean_sink(rail)
+    # What is seen near the contact sets the colours.
+    shown = [
+        (b.displacement[:, 1] - sink)[np.hypot(b.nodes[:, 0], b.nodes[:, 1]) < 2e-3 * _NEAR]
+        for b in (rail, wheel)
+    ]
+    seen = 1e6 * np.concatenate([*shown, [0.0]])
+    limits = (float(seen.min()), float(seen.max()))
+    for body in (rail, wheel):
         _outline(whole, body)
-        _body(whole, body, factor, (low, high))
-        _outline(near, body)
-        image = _body(near, body, 1.0, (low, high))
-    figure.colorbar(image, ax=near, label="Vertical displacement (mm)", shrink=0.8)
+        _body(whole, body, factor, sink, limits)
+        image = _body(near, body, 1.0, sink, limits)
+    text = "Vertical displacement less the rail's mean (µm)"
+    figure.colorbar(image, ax=near, label=text, shrink=0.9)
     whole.autoscale_view()
     near.set_xlim(-_NEAR, _NEAR)
-    near.set_ylim(-1.5 * _NEAR, 0.9 * _NEAR)
+    near.set_ylim(-1.1 * _NEAR, 0.9 * _NEAR)
     whole.set_title(f"Displacements × {exact(factor)}")
     near.set_title("Near the contact, true to scale")
     for axes in (whole, near):
@@ -106,11 +127,13 @@ def _draw(rail: Section, wheel: Section | None, factor: float) -> Figure:
     return figure
 
 
-def _body(axes: Axes, body: Section, factor: float, limits: tuple[float, float]) -> PolyCollection:
+def _body(
+    axes: Axes, body: Section, factor: float, sink: float, limits: tuple[float, float]
+) -> PolyCollection:
     corners = (body.nodes + factor * body.displacement)[body.quads] * 1e3
-    value = body.displacement[:, 1][body.quads].mean(axis=1) * 1e3
+    value = (body.displacement[:, 1][body.quads].mean(axis=1) - sink) * 1e6
     faces = PolyCollection(
-        list(corners), array=value, cmap="cividis", edgecolors=BLACK, linewidths=0.08
+        list(corners), array=value, cmap="cividis", edgecolors=BLACK, linewidths=0.15
     )
     faces.set_clim(*limits)
     axes.add_collection(faces)
@@ -136,23 +159,23 @@ def _outline(axes: Axes, body: Section) -> None:
 
 
 def _caption(
-    name: str, run: xr.Dataset, rail: Section, wheel: Section | None, factor: float
+    name: str, run: xr.Dataset, rail: Section, wheel: Section, factor: float, level: float
 ) -> str:
-    where = ""
-    at = run.attrs.get("section_position")
-    if at is not None:
-        where = f" at X = {exact(float(at))} m"
-    down = -rail.displacement[:, 1] * 1e3
-    bodies = "the rail" if wheel is None else "rail and wheel"
+    at = run["section_rail_displacement"].attrs.get("section_position")
+    where = "" if at is None else f" at X = {exact(float(at))} m"
+    sink = mean_sink(rail)
+    top = rail.displacement[np.argmin(np.hypot(*rail.nodes.T)), 1] - sink
+    hub = wheel.displacement[np.argmax(wheel.nodes[:, 1]), 1] - sink
     text = (
-        f"Section through {bodies} under the wheel of the run {label(name)}{where}: left with "
-        f"displacements drawn {exact(factor)} times, right near the contact and true to scale; "
-        "grey the undeformed outline. The rail moves down by "
-        f"{number(down.min())} to {number(down.max())} mm"
+        f"Section through rail and wheel of the run {label(name)}{where}: left with displacements "
+        f"drawn {exact(factor)} times, the undeformed outline grey; right near the contact. "
+        f"Colours: vertical displacement less the mean of the rail's section, which moves by "
+        f"{number(sink * 1e3)} mm. Against that mean the middle of the running surface moves by "
+        f"{number(top * 1e6)} µm and the wheel's hub by {number(hub * 1e6)} µm."
     )
-    if wheel is not None:
+    if level:
         text += (
-            f", the shown part of the wheel by {number(-wheel.displacement[:, 1].max() * 1e3)} to "
-            f"{number(-wheel.displacement[:, 1].min() * 1e3)} mm"
+            f" The irregularity there, {number(level * 1e3)} mm, is taken off the wheel's "
+            "displacement, so that the bodies are drawn in touch."
         )
-    return text + "."
+    return text

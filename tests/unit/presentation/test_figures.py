@@ -21,7 +21,7 @@ LABELS = {
     "third_octaves": {"Third-octave band centre (Hz)", "Force level (dB re 1 N)", "(dB)"},
     "patch_pressure": {"Along the rail (mm)", "Across the rail (mm)", "Pressure (MPa)"},
     "patch_history": {"Contact area (mm²)", "Peak pressure (MPa)"},
-    "deformed_section": {"Across the rail y (mm)", "Vertical displacement (mm)"},
+    "deformed_section": {"Across the rail y (mm)", "less the rail's mean (µm)"},
 }
 
 
