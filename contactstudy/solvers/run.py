@@ -10,10 +10,11 @@ import scipy.sparse as sp
 import xarray as xr
 
 from contactstudy.banded import LinearSystem
-from contactstudy.dynamics import Coupling, Integrator, State, march, static_start
+from contactstudy.dynamics import Coupling, Integrator, State, march
 from contactstudy.rows import row_values
 from contactstudy.solvers.dataset import history_dataset
 from contactstudy.solvers.journey import Journey
+from contactstudy.statics import static_start
 from contactstudy.track.model import Direction, Track
 from contactstudy.vehicle import Vehicle
 

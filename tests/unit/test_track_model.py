@@ -9,7 +9,6 @@ from contactstudy.track.model import (
     Slab,
     Track,
     WinklerFoundation,
-    winkler_length,
 )
 
 
@@ -40,7 +39,6 @@ def test_footprints_are_cut_off_at_the_ends():
 def test_winkler_values_by_direction():
     assert WinklerFoundation(1e7, 2.0).values("Y") == (1e7, 2.0)
     assert WinklerFoundation(1e7, 2.0, 3e6, 1.0).values("Y") == (3e6, 1.0)
-    assert winkler_length(6.4155e6, 30e6) == pytest.approx(1 / 1.039819, rel=1e-6)
 
 
 @pytest.mark.parametrize(
