@@ -126,13 +126,14 @@ def _caption(results: StudyResults, pairs: dict[str, tuple[ThirdOctaves, ThirdOc
     parts = []
     for name, (ours, theirs) in pairs.items():
         # Bands that carry nothing say nothing about the models.
-        heard = ours.level > ours.level.max() - SHOWN_RANGE / 2
+        louder = np.maximum(ours.level, theirs.level)
+        heard = louder > louder.max() - SHOWN_RANGE / 2
         difference = theirs.level[heard] - ours.level[heard]
         k = int(np.argmax(np.abs(difference)))
         parts.append(
             f"{label(name)} {number(difference[k], 2)} dB at {ours.nominal[heard][k]:g} Hz"
         )
     return (
-        f"{text} Largest differences in bands within {SHOWN_RANGE / 2:g} dB of the highest: "
-        f"{', '.join(parts)}."
+        f"{text} Largest differences in bands that reach to within {SHOWN_RANGE / 2:g} dB of the "
+        f"highest level: {', '.join(parts)}."
     )
