@@ -43,6 +43,9 @@ class RailCell:
         cells leave out.
     centre_residual : ndarray (2*ns + 1, (2*ns + 1)*ny)
         What surface loads add to the section mean beyond the reduced cells, in m/N.
+    centre_compliance : ndarray (2, ns + 1)
+        What a load spread over the section adds to that section's mean displacement, and to the
+        next one's, beyond the reduced cells, in m/N (no next one for the last).
     section_map : ndarray (2*k, m)
         Displacements (y, z in turn) of the k nodes of an interface plane.
     section_residual : ndarray (2*k, (2*ns + 1)*ny)
@@ -58,6 +61,7 @@ class RailCell:
     foot_map: Array
     residual: Array
     centre_residual: Array
+    centre_compliance: Array
     section_map: Array
     section_residual: Array
 
@@ -113,6 +117,12 @@ def condense(recipe: CellRecipe) -> RailCell:
     exact_centre = _by_reflection(response.centre[:, None], ns, ny)
     S = pair_surface.reshape(-1, F.shape[0])
     residual = exact.reshape(S.shape[0], -1) - S @ F @ S.T
+    # the second of the two cells; its exact values are those of the first, mirrored
+    own = pair_centre[ns:]
+    reduced_own = own @ F @ own.T
+    centre_compliance = np.zeros((2, ns + 1))
+    centre_compliance[0] = response.own_centre[0, ::-1] - np.diag(reduced_own)
+    centre_compliance[1, :-1] = response.own_centre[1, -2::-1] - np.diag(reduced_own, 1)
     # the same for all nodes of the plane between the two cells, for drawing the section
     plane = _by_reflection(response.interfaces[None, 2, :, : (ns + 1) * ny], ns, ny)[0]
     drawn = _transverse(piece)
@@ -127,6 +137,7 @@ def condense(recipe: CellRecipe) -> RailCell:
         foot_map,
         0.5 * (residual + residual.T),
         centre_residual,
+        centre_compliance,
         drawn @ basis,
         drawn @ plane - drawn @ basis @ (F @ S.T)[len(stiffness) - m : len(stiffness)],
     )

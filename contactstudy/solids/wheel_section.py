@@ -93,7 +93,7 @@ class WheelSection:
 
 def fine_lines(half_width: float, size: float) -> Array:
     """Lines of the fine part of the tread, equal steps of `size` from 0 to `half_width` [m]."""
-    return size * np.arange(max(2, round(half_width / size)) + 1)
+    return np.asarray(size * np.arange(max(2, round(half_width / size)) + 1), dtype=float)
 
 
 def wheel_section_mesh(

@@ -24,7 +24,8 @@ class WindowResponse:
 
     Plane p of the pair lies at ``x = p * thickness``, p = 0 ... 2*ns. Loads on the second
     half follow by reflection in x. A load with index j*ny + a acts on plane j, j = 0 ... ns,
-    along the outward normal of surface node a; foot loads act evenly across the foot.
+    along the outward normal of surface node a; foot loads act evenly across the foot, centre
+    loads in proportion to the section's area.
 
     Attributes
     ----------
@@ -32,6 +33,8 @@ class WindowResponse:
         Normal displacements of the surface nodes.
     centre : ndarray (2*ns + 1, (ns + 1)*ny)
         Mean section displacements.
+    own_centre : ndarray (2, ns + 1)
+        Mean displacement of a section under a centre load on it, and of the next one.
     interfaces : ndarray (5, n, (ns + 1)*(ny + 1))
         Displacements of the interface planes at x = -L, 0, L, 2L, 3L; the last ns + 1
         columns belong to the foot loads.
@@ -39,6 +42,7 @@ class WindowResponse:
 
     surface: Array
     centre: Array
+    own_centre: Array
     interfaces: Array
 
 
@@ -64,22 +68,28 @@ def window_response(piece: Slice, n_slices: int, rows: SectionRows) -> WindowRes
     n, ny = len(rows.centre), len(rows.surface_y)
     count = n_slices + 1
     factor = BlockTridiagonal(*chain_blocks([piece] * (2 * n_slices), beyond.bb, beyond.aa))
-    loads = np.c_[rows.surface.T, rows.foot]
+    loads = np.c_[rows.surface.T, rows.foot, rows.centre]
     rhs = []
     for p in range(2 * n_slices + 1):
-        b = np.zeros((n, count * (ny + 1)))
+        b = np.zeros((n, count * (ny + 2)))
         if p < count:
             b[:, p * ny : (p + 1) * ny] = loads[:, :ny]
             b[:, count * ny + p] = loads[:, ny]
+            b[:, count * (ny + 1) + p] = loads[:, ny + 1]
         rhs.append(b)
     u = factor.solve(rhs)
     contact = slice(0, count * ny)
+    kept = slice(0, count * (ny + 1))
+    centre_load = count * (ny + 1) + np.arange(count)
     # the neighbouring interfaces follow from the cells beyond: (beyond' + K_aa) u_2 = -K_ab u_3
     before = repeat(cell, MARGIN - 1)
-    left = -sl.solve(before.bb + cell.aa, cell.ab @ u[0], assume_a="pos")
-    right = -sl.solve(before.aa + cell.bb, cell.ab.T @ u[-1], assume_a="pos")
+    left = -sl.solve(before.bb + cell.aa, cell.ab @ u[0][:, kept], assume_a="pos")
+    right = -sl.solve(before.aa + cell.bb, cell.ab.T @ u[-1][:, kept], assume_a="pos")
     return WindowResponse(
         surface=np.stack([rows.surface @ x[:, contact] for x in u]),
         centre=np.stack([rows.centre @ x[:, contact] for x in u]),
-        interfaces=np.stack([left, u[0], u[n_slices], u[-1], right]),
+        own_centre=np.array(
+            [[rows.centre @ u[p + q][:, centre_load[p]] for p in range(count)] for q in (0, 1)]
+        ),
+        interfaces=np.stack([left, *(x[:, kept] for x in (u[0], u[n_slices], u[-1])), right]),
     )

@@ -12,6 +12,7 @@ from contactstudy.contact.points import ContactPoints
 from contactstudy.dynamics import State
 from contactstudy.solids.wheel import WheelFlexibility
 from contactstudy.track.solid import SolidTrack
+from contactstudy.track.unreduced import UnreducedTrack
 
 Array = NDArray[np.float64]
 
@@ -33,7 +34,7 @@ class Instants:
     ----------
     coupling : SurfaceCoupling
         Of the run.
-    track : SolidTrack
+    track : SolidTrack or UnreducedTrack
     positions : ndarray (n_times,)
         X of the wheel at every state in m.
     at : sequence of float
@@ -43,7 +44,7 @@ class Instants:
     def __init__(
         self,
         coupling: SurfaceCoupling,
-        track: SolidTrack,
+        track: SolidTrack | UnreducedTrack,
         positions: Array,
         at: Sequence[float],
     ) -> None:

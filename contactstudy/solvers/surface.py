@@ -21,6 +21,7 @@ from contactstudy.solvers.instants import Instants
 from contactstudy.solvers.journey import Journey
 from contactstudy.solvers.run import Assembly, Progress, run
 from contactstudy.track.solid import SolidTrack
+from contactstudy.track.unreduced import UnreducedTrack
 from contactstudy.validation import positive, raise_if
 from contactstudy.vehicle import Vehicle
 
@@ -31,7 +32,7 @@ PRESS_LOADS = np.linspace(0.25, 2.0, 8)
 
 
 def surface_contact(
-    track: SolidTrack,
+    track: SolidTrack | UnreducedTrack,
     wheel: WheelFlexibility | None,
     vehicle: Vehicle,
     irregularity: Profile,
@@ -46,7 +47,7 @@ def surface_contact(
 
     Parameters
     ----------
-    track : SolidTrack
+    track : SolidTrack or UnreducedTrack
         Discretised track with a solid rail.
     wheel : WheelFlexibility or None
         Elastic wheel; None: a rigid one of the default dimensions.
@@ -84,7 +85,7 @@ def surface_contact(
     """
     began = time.perf_counter()
     integrator = integrator or average_acceleration()
-    wheel = wheel or rigid_wheel(WheelRecipe(rail_profile=track.cell.recipe.profile))
+    wheel = wheel or rigid_wheel(WheelRecipe(rail_profile=track.recipe.profile))
     problems = journey.problems_on(track.track, vehicle) + positive("penalty", penalty, "Pa/m")
     problems += _problems(track, wheel, vehicle)
     problems += [
@@ -127,7 +128,7 @@ def surface_contact(
             "law": "penalty",
             "penalty": penalty,
             "wheel": "elastic" if elastic else "rigid",
-            "mesh_size": track.cell.recipe.size,
+            "mesh_size": track.recipe.size,
             "contact_points": len(points.gap),
         },
         progress=progress,
@@ -156,13 +157,13 @@ def wheel_points(wheel: WheelFlexibility) -> ContactPoints:
     )
 
 
-def candidate_list(track: SolidTrack, wheel: WheelFlexibility) -> CandidateList:
+def candidate_list(track: SolidTrack | UnreducedTrack, wheel: WheelFlexibility) -> CandidateList:
     """Search of the wheel's tread facets over the rail's running surface."""
     recipe = wheel.recipe
     rail, radius = rail_profile(recipe.rail_profile), recipe.dimensions.radius
     drop = rolling_drop(wheel.x, wheel_profile(recipe.profile).height(wheel.y), radius)
     reach = 1.5 * float(wheel.x[-1])
-    y = track.cell.surface_y
+    y = track.surface_y
     top = np.broadcast_to(rail.running_surface(y), (2, len(y)))
     step = max(float(np.diff(wheel.x).max()), float(np.diff(y).max()))
     return CandidateList(
@@ -174,7 +175,7 @@ def candidate_list(track: SolidTrack, wheel: WheelFlexibility) -> CandidateList:
 
 
 def geometry_press(
-    track: SolidTrack,
+    track: SolidTrack | UnreducedTrack,
     wheel: WheelFlexibility,
     loads: Array,
     penalty: float = 1e16,
@@ -210,32 +211,36 @@ def geometry_press(
     factor = Factor(track.stiffness)
     unit = np.zeros((factor.n, len(patch.dofs)))
     unit[patch.dofs, np.arange(len(patch.dofs))] = 1.0
-    C = factor.solve(unit)[patch.dofs]
+    solved = factor.solve(unit)
+    C = solved[patch.dofs]
     nodal = patch.map @ (0.5 * (C + C.T)) @ patch.map.T + patch.residual
     P = rail_matrix(points, patch.x, patch.y, x)
     tread = points.wheel_rows.matrix(len(wheel.flexibility))
     W = P @ nodal @ P.T + tread @ wheel.flexibility @ tread.T
     # deflection of the centre line per unit nodal force; forces push the rail down
-    reference = P @ (patch.map @ (C.T @ patch.centre_map) + patch.centre_residual)
+    reference = P @ (patch.map @ (patch.centre_map @ solved[patch.centre_dofs]))
+    reference += P @ patch.centre_residual
     return press_curve(points, W, loads, penalty, reference)
 
 
-def _problems(track: SolidTrack, wheel: WheelFlexibility, vehicle: Vehicle) -> list[str]:
+def _problems(
+    track: SolidTrack | UnreducedTrack, wheel: WheelFlexibility, vehicle: Vehicle
+) -> list[str]:
     problems = []
     if vehicle.n_wheels != 1:
         problems.append(
             f"surface contact: the vehicle has {vehicle.n_wheels} wheels; exactly one is possible"
         )
-    if wheel.recipe.rail_profile != track.cell.recipe.profile:
+    if wheel.recipe.rail_profile != track.recipe.profile:
         problems.append(
             f"surface contact: the wheel was made for rail {wheel.recipe.rail_profile}, the track "
-            f"has {track.cell.recipe.profile}"
+            f"has {track.recipe.profile}"
         )
     outermost = float(wheel_points(wheel).y[-1])
-    if outermost > track.cell.surface_y[-1]:
+    if outermost > track.surface_y[-1]:
         problems.append(
             f"wheel contact_half_width = {wheel.y[-1]:.4g} m: its outermost contact points, at "
             f"{outermost:.4g} m, lie beyond the rail's finely meshed running surface, "
-            f"{track.cell.surface_y[-1]:.4g} m wide on each side"
+            f"{track.surface_y[-1]:.4g} m wide on each side"
         )
     return problems

@@ -30,7 +30,9 @@ class SurfacePatch:
         Positions on the track [m].
     y : ndarray (ny,)
         Lateral positions [m].
-    centre_map : ndarray (nd,)
+    centre_dofs : ndarray (nc,)
+        Dofs of the track for `centre_map`.
+    centre_map : ndarray (nc,)
         Deflection of the rail's centre line at the position asked for.
     centre_residual : ndarray (nodes,)
         What nodal forces add to that deflection [m/N].
@@ -42,6 +44,7 @@ class SurfacePatch:
     residual: Array
     x: Array
     y: Array
+    centre_dofs: NDArray[np.int64]
     centre_map: Array
     centre_residual: Array
 

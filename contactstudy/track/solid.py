@@ -11,7 +11,7 @@ from contactstudy.exceptions import InputError
 from contactstudy.solids.cell import RailCell, section_of
 from contactstudy.solids.pair import CellPair, cell_pair
 from contactstudy.solids.recipe import CellRecipe
-from contactstudy.track.model import Rail, Track, WinklerFoundation
+from contactstudy.track.model import DiscreteSupports, Rail, Track, WinklerFoundation
 from contactstudy.track.patch import SectionResponse, SurfacePatch
 from contactstudy.track.supports import PadRow, SupportedRail, add_supports
 
@@ -53,18 +53,21 @@ class SolidTrack:
     Raises
     ------
     InputError
-        If the cells do not divide the bays, or rail and cell are not of the same stuff.
+        If the cells do not divide the bays (or the length, where there are none), or rail and
+        cell are not of the same stuff.
     """
 
     track: Track
     cell: RailCell
 
     def __post_init__(self) -> None:
-        recipe, rail, problems = self.cell.recipe, self.track.rail, []
-        ratio = self.track.bay_length / recipe.length
+        recipe, rail, problems = self.recipe, self.track.rail, []
+        discrete = isinstance(self.track.support, DiscreteSupports)
+        what, length = ("bay", self.track.bay_length) if discrete else ("track", self.track.length)
+        ratio = length / recipe.length
         if abs(ratio - round(ratio)) > 1e-9 * ratio:
             problems.append(
-                f"cell length = {recipe.length} m: must divide the bay of {self.track.bay_length} m"
+                f"cell length = {recipe.length} m: must divide the {what} of {length} m"
             )
         if self.n_cells < 4:
             problems.append(f"track length = {self.track.length} m: must hold at least 4 cells")
@@ -85,9 +88,19 @@ class SolidTrack:
             raise InputError(problems)
 
     @property
+    def recipe(self) -> CellRecipe:
+        """Mesh and reduction of the rail."""
+        return self.cell.recipe
+
+    @property
+    def surface_y(self) -> Array:
+        """Lateral positions of the running-surface nodes [m]."""
+        return self.cell.surface_y
+
+    @property
     def n_cells(self) -> int:
         """Number of cells."""
-        return round(self.track.length / self.cell.recipe.length)
+        return round(self.track.length / self.recipe.length)
 
     @property
     def n_dofs(self) -> int:
@@ -131,8 +144,18 @@ class SolidTrack:
         return self._placed(cell * self._step, weights)
 
     def local_compliance(self, x: Array) -> Array:
-        """Zero: the local flexibility of the solid belongs to its surface, not to its centre."""
-        return np.zeros(np.atleast_1d(x).shape)
+        """What the condensed cells leave out of the deflection under a load at X, (m,) [m/N].
+
+        For a load spread over the section, which is what a point law on this rail applies.
+        """
+        _, slices, t = self._locate(np.atleast_1d(np.asarray(x, dtype=float)))
+        own, following = self.cell.centre_compliance
+        # the load is shared by the planes on both sides, and so is the deflection
+        return np.asarray(
+            (1 - t) ** 2 * own[slices]
+            + 2 * t * (1 - t) * following[slices]
+            + t**2 * own[slices + 1]
+        )
 
     def patch(self, x: float, half_length: float) -> SurfacePatch:
         """Running surface around X, as the contact sees it.
@@ -167,9 +190,9 @@ class SolidTrack:
             dofs=dofs,
             map=np.where(held, 0.0, rows) if held.any() else rows,
             residual=maps.residual[planes, :, planes].reshape(nodes, nodes),
-            x=pair * self.cell.recipe.length
-            + h * np.arange(planes.start, planes.stop, dtype=float),
+            x=pair * self.recipe.length + h * np.arange(planes.start, planes.stop, dtype=float),
             y=self.cell.surface_y,
+            centre_dofs=dofs,
             centre_map=np.where(held, 0.0, mean),
             centre_residual=mean_residual[planes].ravel(),
         )
@@ -188,11 +211,11 @@ class SolidTrack:
         """
         pair, _, planes = self._planes(x, half_length)
         dofs, held = self._pair_dofs(pair)
-        middle = slice(self._step, self._step + self.cell.recipe.interface_modes)
-        mesh, _, _ = section_of(self.cell.recipe)
+        middle = slice(self._step, self._step + self.recipe.interface_modes)
+        mesh, _, _ = section_of(self.recipe)
         k = len(mesh.nodes)
         return SectionResponse(
-            position=(pair + 1) * self.cell.recipe.length,
+            position=(pair + 1) * self.recipe.length,
             nodes=mesh.nodes,
             quads=mesh.quads,
             dofs=dofs[middle],
@@ -202,12 +225,12 @@ class SolidTrack:
 
     def _planes(self, x: float, half_length: float) -> tuple[int, float, slice]:
         """First of the two cells around X, X in slices from its start, planes of a patch."""
-        length, h = self.cell.recipe.length, self.thickness
+        length, h = self.recipe.length, self.thickness
         pair = min(max(int(np.floor(x / length - 0.5)), 0), self.n_cells - 2)
         local = (x - pair * length) / h
         first = int(np.floor(local - half_length / h))
         stop = first + int(np.ceil(2 * half_length / h)) + 2
-        if first < 0 or stop > 2 * self.cell.recipe.n_slices + 1:
+        if first < 0 or stop > 2 * self.recipe.n_slices + 1:
             raise InputError(
                 f"contact patch at X = {x:.4f} m with half length {half_length} m does not lie "
                 f"within two rail cells of {length} m on the track"
@@ -217,16 +240,16 @@ class SolidTrack:
     @property
     def thickness(self) -> float:
         """Length of a slice of the mesh [m]."""
-        return self.cell.recipe.length / self.cell.recipe.n_slices
+        return self.recipe.length / self.recipe.n_slices
 
     @property
     def _step(self) -> int:
         """Bare dofs of one plane and one cell's internal modes."""
-        return self.cell.recipe.interface_modes + self.cell.recipe.internal_modes
+        return self.recipe.interface_modes + self.recipe.internal_modes
 
     def _locate(self, x: Array) -> tuple[IntArray, IntArray, Array]:
         """Cell, slice in it and fraction of the slice of each X."""
-        ns = self.cell.recipe.n_slices
+        ns = self.recipe.n_slices
         scaled = x / self.thickness
         index = np.clip(np.floor(scaled).astype(np.int64), 0, self.n_cells * ns - 1)
         return index // ns, index % ns, scaled - index
@@ -239,7 +262,7 @@ class SolidTrack:
 
     def _pair_dofs(self, pair: int) -> tuple[IntArray, NDArray[np.bool_]]:
         first = pair * self._step
-        dofs = self._dof_of_bare[first : first + 2 * self._step + self.cell.recipe.interface_modes]
+        dofs = self._dof_of_bare[first : first + 2 * self._step + self.recipe.interface_modes]
         held = dofs < 0
         # a held dof has weight 0 everywhere; name a free neighbour in its place
         return np.where(held, dofs.max(), dofs), held
@@ -255,7 +278,7 @@ class SolidTrack:
         Nothing else holds the rail along X, so ends that leave it free to slide are held
         there by one axial coordinate.
         """
-        m, last = self.cell.recipe.interface_modes, self.n_cells * self._step
+        m, last = self.recipe.interface_modes, self.n_cells * self._step
         if self.track.ends == "clamped":
             return np.r_[0:m, last : last + m]
         if self.track.ends == "pinned":
@@ -265,7 +288,7 @@ class SolidTrack:
     @cached_property
     def _dof_of_bare(self) -> IntArray:
         """Final dof of each bare dof, -1 where held."""
-        n = self.n_cells * self._step + self.cell.recipe.interface_modes
+        n = self.n_cells * self._step + self.recipe.interface_modes
         final = np.full(n, -1, dtype=np.int64)
         final[np.setdiff1d(np.arange(n), self._held)] = self._assembled.rail_dofs
         return final

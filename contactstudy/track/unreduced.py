@@ -18,7 +18,7 @@ from contactstudy.solids.recipe import CellRecipe
 from contactstudy.solids.section_mesh import SectionMesh
 from contactstudy.solids.section_rows import SectionRows
 from contactstudy.track.model import Track, WinklerFoundation
-from contactstudy.track.patch import SurfacePatch
+from contactstudy.track.patch import SectionResponse, SurfacePatch
 from contactstudy.track.supports import PadRow, SupportedRail, add_supports
 
 Array = NDArray[np.float64]
@@ -103,7 +103,7 @@ class UnreducedTrack:
 
     def patch(self, x: float, half_length: float) -> SurfacePatch:
         """Running surface around X, as `SolidTrack.patch`, with no residual left."""
-        h, ny, n = self.thickness, len(self._rows.surface_y), self._n
+        h, n = self.thickness, self._n
         first = int(np.floor((x - half_length) / h))
         last = first + int(np.ceil(2 * half_length / h)) + 1
         if first < 1 or last > self.n_slices - 1:
@@ -113,37 +113,42 @@ class UnreducedTrack:
         normal = self._rows.surface
         used = np.flatnonzero(np.any(normal != 0.0, axis=0))
         planes = np.arange(first, last + 1)
-        rows = np.kron(np.eye(len(planes)), normal[:, used])
+        rows = np.asarray(np.kron(np.eye(len(planes)), normal[:, used]), dtype=float)
         (at,), (t,) = self._locate(np.array([x]))
         mean_dofs = np.flatnonzero(self._rows.centre)
         centre = self._rows.centre[mean_dofs]
-        dofs = self._place[
-            np.r_[
-                (planes[:, None] * n + used).ravel(),
-                at * n + mean_dofs,
-                (at + 1) * n + mean_dofs,
-            ]
-        ]
-        extra = 2 * len(mean_dofs)
         return SurfacePatch(
             key=first,
-            dofs=dofs,
-            map=np.hstack([rows, np.zeros((len(rows), extra))]),
-            residual=np.zeros((len(planes) * ny,) * 2),
+            dofs=self._place[(planes[:, None] * n + used).ravel()],
+            map=rows,
+            residual=np.zeros((len(rows),) * 2),
             x=np.asarray(h * planes, dtype=float),
-            y=self._rows.surface_y,
-            centre_map=np.r_[np.zeros(rows.shape[1]), (1 - t) * centre, t * centre],
-            centre_residual=np.zeros(len(planes) * ny),
+            y=self.surface_y,
+            centre_dofs=self._place[np.r_[at * n + mean_dofs, (at + 1) * n + mean_dofs]],
+            centre_map=np.r_[(1 - t) * centre, t * centre],
+            centre_residual=np.zeros(len(rows)),
         )
 
-    def plane_displacement(self, x: float, u: Array) -> Array:
-        """Displacement (k, 3) of the nodes of the plane nearest to X."""
+    def section(self, x: float, half_length: float) -> SectionResponse:
+        """Displacement of the plane nearest to X, as `SolidTrack.section`."""
         section, piece, _ = self._section
-        plane = round(x / self.thickness)
-        dofs = self._place[plane * self._n : (plane + 1) * self._n]
-        moved = np.zeros(3 * len(section.nodes))
-        moved[piece.free] = np.where(dofs < 0, 0.0, u[dofs])
-        return moved.reshape(-1, 3)
+        plane, k = round(x / self.thickness), len(section.nodes)
+        transverse = np.flatnonzero(piece.free % 3 > 0)
+        chosen = np.zeros((3 * k, len(transverse)))
+        chosen[piece.free[transverse], np.arange(len(transverse))] = 1.0
+        return SectionResponse(
+            position=plane * self.thickness,
+            nodes=section.nodes,
+            quads=section.quads,
+            dofs=self._place[plane * self._n + transverse],
+            map=chosen.reshape(k, 3, -1)[:, 1:],
+            residual=np.zeros((k, 2, len(self.patch(x, half_length).map))),
+        )
+
+    @property
+    def surface_y(self) -> Array:
+        """Lateral positions of the running-surface nodes [m]."""
+        return self._rows.surface_y
 
     @cached_property
     def _section(self) -> tuple[SectionMesh, ExtrudedSlice, SectionRows]:
