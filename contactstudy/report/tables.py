@@ -1,5 +1,6 @@
 """Tables of the report as plain data: columns and rows of texts."""
 
+import math
 import re
 from collections.abc import Mapping
 from typing import Any
@@ -23,10 +24,10 @@ _TITLES = {
     "solid": "Solid rail and wheel",
 }
 _NAMES = {
-    "from": "first position of the wheel",
-    "to": "last position of the wheel",
+    "from": "wheel from",
+    "to": "wheel to",
     "spacing": "support spacing",
-    "roughness": "roughness coefficient Aᵣ",
+    "roughness": "roughness Aᵣ",
     "omega_1": "ω₁",
     "omega_2": "ω₂",
     "terms": "number of terms N",
@@ -34,10 +35,10 @@ _NAMES = {
     "youngs_modulus": "Young's modulus",
     "poisson_ratio": "Poisson's ratio",
     "band": "wavenumber band",
-    "fade_in": "fade-in length of the irregularity",
-    "layer": "layer below the sleepers",
+    "fade_in": "fade-in length",
+    "layer": "layer below",
     "static_load": "static load",
-    "pressure_at": "positions of stored pressure fields",
+    "pressure_at": "pressure fields at",
 }
 
 
@@ -81,6 +82,7 @@ def parameter_tables(results: StudyResults) -> list[Block]:
                     [[r[0], r[1], r[2], r[3]] for r in rows],
                     f"{title}.",
                 )
+                | {"size": 8.5}
             )
             made[-1]["columns"][2]["align"] = made[-1]["columns"][3]["align"] = "left"
     return made
@@ -95,10 +97,18 @@ def _origin(section: str, key: str, value: Any) -> str:
     """Whether a value is the program's default or was set by the study."""
     for name, field in SECTIONS[section].model_fields.items():
         if (field.alias or name) == key:
-            default = field.default
-            same = list(default) == value if isinstance(default, tuple) else default == value
-            return "default" if same else "study"
+            return "default" if _equal(field.default, value) else "study"
     return "study"
+
+
+def _equal(default: Any, value: Any) -> bool:
+    """Equality up to the rounding that the conversion of a unit leaves."""
+    if isinstance(default, tuple) and isinstance(value, list | tuple):
+        pairs = zip(default, value, strict=False)
+        return len(default) == len(value) and all(_equal(d, v) for d, v in pairs)
+    if isinstance(default, float) and isinstance(value, int | float):
+        return math.isclose(default, value, rel_tol=1e-12)
+    return bool(default == value)
 
 
 def describe(results: StudyResults, name: str) -> tuple[str, str]:

@@ -11,6 +11,7 @@ from contactstudy.report import write_report
 from contactstudy.report.abstract import GRADES, abstract, grade, papers_scheme
 from contactstudy.report.content import content
 from contactstudy.report.quantity import fixed, percent, quantity
+from contactstudy.report.tables import parameter_tables
 from contactstudy.resources import resource
 
 A4 = (595.276, 841.89)  # points
@@ -194,6 +195,18 @@ def test_template_has_no_figures_of_its_own():
     for name in ("template.typ", "blocks.typ"):
         text = resource("report", name).read_text("utf-8")
         assert not re.search(r"\d\s*(kN|MPa|%\s*of|km/h|dB)", text), name
+
+
+def test_parameters_say_whether_the_study_set_them(made):
+    study, *_ = made
+    config = {**study.config, "journey": {**study.config["journey"], "speed": 83.33333333333334}}
+    config["track"] = {**config["track"], "pad_stiffness": 60e6}
+    other = type(study)(**{**vars(study), "config": config})
+    rows = [row for block in parameter_tables(other) for row in block["rows"]]
+    given = {row[0]: (row[1], row[3]) for row in rows}
+    assert given["speed"] == ("83.3333", "default")  # 300 km/h up to rounding
+    assert given["pad stiffness"] == ("60", "study")
+    assert given["wavenumber band"] == ("0.08, 20", "default")
 
 
 @pytest.mark.parametrize(
