@@ -8,12 +8,12 @@ from contactstudy.figures import Drawing, drawings
 from contactstudy.figures.drawing import label
 from contactstudy.figures.passing_components import is_smooth
 from contactstudy.report.abstract import GRADES, abstract
+from contactstudy.report.parameters import parameter_tables
 from contactstudy.report.quantity import quantity
 from contactstudy.report.tables import (
     Block,
     cited,
     error_tables,
-    parameter_tables,
     passing_table,
     run_table,
     text,

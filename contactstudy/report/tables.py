@@ -1,6 +1,5 @@
 """Tables of the report as plain data: columns and rows of texts."""
 
-import math
 import re
 from collections.abc import Mapping
 from typing import Any
@@ -10,36 +9,10 @@ from contactstudy.figures.passing_components import all_passing, component
 from contactstudy.report.metrics import between, of_run
 from contactstudy.report.quantity import fixed, grouped, percent, quantity, rounded
 from contactstudy.study.results import StudyResults
-from contactstudy.study.schema import SECTIONS
 
 Block = dict[str, Any]
 # The template sets these as symbols.
 K_R, K_H = "k_r", "k_H"
-
-_TITLES = {
-    "irregularity": "Irregularity",
-    "track": "Track (per rail)",
-    "vehicle": "Vehicle (per wheel)",
-    "journey": "Journey",
-    "solid": "Solid rail and wheel",
-}
-_NAMES = {
-    "from": "wheel from",
-    "to": "wheel to",
-    "spacing": "support spacing",
-    "roughness": "roughness Aᵣ",
-    "omega_1": "ω₁",
-    "omega_2": "ω₂",
-    "terms": "number of terms N",
-    "jitter": "jittered wavenumbers",
-    "youngs_modulus": "Young's modulus",
-    "poisson_ratio": "Poisson's ratio",
-    "band": "wavenumber band",
-    "fade_in": "fade-in length",
-    "layer": "layer below",
-    "static_load": "static load",
-    "pressure_at": "pressure fields at",
-}
 
 
 def text(content: str) -> Block:
@@ -67,48 +40,6 @@ def table(
         "caption": caption,
     }
     return made | ({"note": note} if note else {})
-
-
-def parameter_tables(results: StudyResults) -> list[Block]:
-    """One table for each part of the resolved study except its runs."""
-    made = []
-    for section, title in _TITLES.items():
-        values = results.config.get(section)
-        if values:
-            rows = [_parameter(results, section, key, value) for key, value in values.items()]
-            made.append(
-                table(
-                    ["Parameter", "Value", "Unit", "Given by"],
-                    [[r[0], r[1], r[2], r[3]] for r in rows],
-                    f"{title}.",
-                )
-                | {"size": 8.5}
-            )
-            made[-1]["columns"][2]["align"] = made[-1]["columns"][3]["align"] = "left"
-    return made
-
-
-def _parameter(results: StudyResults, section: str, key: str, value: Any) -> list[str]:
-    shown, unit = quantity(value, results.units.get(f"{section}.{key}", ""))
-    return [_NAMES.get(key, key.replace("_", " ")), shown, unit, _origin(section, key, value)]
-
-
-def _origin(section: str, key: str, value: Any) -> str:
-    """Whether a value is the program's default or was set by the study."""
-    for name, field in SECTIONS[section].model_fields.items():
-        if (field.alias or name) == key:
-            return "default" if _equal(field.default, value) else "study"
-    return "study"
-
-
-def _equal(default: Any, value: Any) -> bool:
-    """Equality up to the rounding that the conversion of a unit leaves."""
-    if isinstance(default, tuple) and isinstance(value, list | tuple):
-        pairs = zip(default, value, strict=False)
-        return len(default) == len(value) and all(_equal(d, v) for d, v in pairs)
-    if isinstance(default, float) and isinstance(value, int | float):
-        return math.isclose(default, value, rel_tol=1e-12)
-    return bool(default == value)
 
 
 def describe(results: StudyResults, name: str) -> tuple[str, str]:

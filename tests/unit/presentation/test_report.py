@@ -10,8 +10,8 @@ from contactstudy.figures.style import drawing, new_figure, save
 from contactstudy.report import write_report
 from contactstudy.report.abstract import GRADES, abstract, grade, papers_scheme
 from contactstudy.report.content import content
+from contactstudy.report.parameters import parameter_tables
 from contactstudy.report.quantity import fixed, percent, quantity
-from contactstudy.report.tables import parameter_tables
 from contactstudy.resources import resource
 
 A4 = (595.276, 841.89)  # points
