@@ -30,6 +30,22 @@ def test_solution_equals_dense(n, bandwidth):
     assert factor.half_bandwidth == min(bandwidth, n - 1)
 
 
+def test_loads_on_few_dofs_of_a_band_that_varies():
+    """Sweeps that end where nothing is felt, and leading zeros that are passed over."""
+    n = 400
+    matrix = banded(n, 6)
+    matrix[200:212, 180:190] = matrix[180:190, 200:212] = 0.0
+    matrix[210, 180] = matrix[180, 210] = 0.3
+    matrix += 30.0 * np.eye(n)
+    factor = Factor(sp.csr_array(matrix))
+    loads = np.zeros((n, 4))
+    loads[0, 0] = loads[n - 1, 1] = loads[205, 2] = 1.0
+    exact = np.linalg.solve(matrix, loads)
+    got = factor.solve(loads)
+    np.testing.assert_allclose(got, exact, rtol=1e-10, atol=1e-16 * np.abs(exact).max())
+    np.testing.assert_array_equal(got[:, 3], 0.0)
+
+
 @pytest.mark.parametrize("bad", [np.diag([1.0, -1.0]), np.zeros((2, 2)), np.diag([1.0, np.nan])])
 def test_not_positive_definite_is_reported(bad):
     with pytest.raises(NumericalError, match="2 dofs"):

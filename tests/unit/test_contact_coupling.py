@@ -47,6 +47,7 @@ class FakeTrack:
             residual=half_space(nodes_x, nodes_y),
             x=nodes_x,
             y=nodes_y,
+            centre_dofs=np.arange(N_TRACK),
             centre_map=np.ones(N_TRACK),
             centre_residual=np.zeros(X.size),
         )
