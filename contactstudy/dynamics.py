@@ -184,29 +184,41 @@ def march(
         yield State(step, step * dt, u, v, a, load, contact)
 
 
-def _windows(matrix: sp.csr_array) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _windows(matrix: sp.csr_array) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Rows as contiguous windows from their first to their last nonzero column.
 
-    Returns the first column of each row (n,), where its values begin (n + 1,), and the values.
-    A banded matrix has few zeros inside its windows, and without column indices to look up the
-    product runs at the speed of memory.
+    Returns the first column of each row, its width and where its values begin, all (n,), and
+    the values. A banded matrix has few zeros inside its windows, so no column needs looking up.
+    Rows with the same values share them: a rail is a chain of equal cells, and the few different
+    rows then stay in the processor's cache.
     """
     csr = sp.csr_array(matrix)
     csr.sort_indices()
-    filled = np.diff(csr.indptr) > 0
-    first, width = np.zeros(csr.shape[0], dtype=np.int64), np.zeros(csr.shape[0], dtype=np.int64)
-    first[filled] = csr.indices[csr.indptr[:-1][filled]]
-    width[filled] = csr.indices[csr.indptr[1:][filled] - 1] - first[filled] + 1
-    begin = np.concatenate(([0], np.cumsum(width)))
-    values = np.zeros(begin[-1])
-    rows = np.repeat(np.arange(csr.shape[0]), np.diff(csr.indptr))
-    values[begin[rows] + csr.indices - first[rows]] = csr.data
-    return first, begin, values
+    n = csr.shape[0]
+    first, width, begin = (np.zeros(n, dtype=np.int64) for _ in range(3))
+    known: dict[bytes, int] = {}
+    pieces, length = [np.zeros(0)], 0
+    for row in range(n):
+        here = slice(csr.indptr[row], csr.indptr[row + 1])
+        columns = csr.indices[here]
+        if len(columns) == 0:
+            continue
+        first[row], width[row] = columns[0], columns[-1] - columns[0] + 1
+        window = np.zeros(width[row])
+        window[columns - columns[0]] = csr.data[here]
+        key = window.tobytes()
+        if key not in known:
+            known[key] = length
+            pieces.append(window)
+            length += len(window)
+        begin[row] = known[key]
+    return first, width, begin, np.concatenate(pieces)
 
 
 @njit(cache=True, fastmath={"reassoc", "contract"})
 def _add_product(
     first: np.ndarray,
+    width: np.ndarray,
     begin: np.ndarray,
     values: np.ndarray,
     coefficients: np.ndarray,
@@ -218,12 +230,10 @@ def _add_product(
     """y += A (c0 u + c1 v + c2 a) for a matrix A in windows."""
     x = coefficients[0] * u + coefficients[1] * v + coefficients[2] * a
     for row in range(len(y)):
-        start, width = begin[row], begin[row + 1] - begin[row]
-        if width == 0:
-            continue
-        here, there = values[start : start + width], x[first[row] : first[row] + width]
+        here = values[begin[row] : begin[row] + width[row]]
+        there = x[first[row] : first[row] + width[row]]
         total = 0.0
-        for k in range(width):
+        for k in range(width[row]):
             total += here[k] * there[k]
         y[row] += total
 

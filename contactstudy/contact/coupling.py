@@ -5,13 +5,12 @@ the irregularity r, the gap at point i is
 
     g_i = gap_i + n_i w - u_n(X + x_i, y_i) - n_i r(X + x_i)
 
-and its flexibility W = P_r (Res + scale H S^-1 H^T) P_r^T + P_w F_w P_w^T + scale n n^T S_ww^-1:
-H is the map from the track's dofs to its surface nodes, Res their residual flexibility, P_r and
-P_w interpolate nodes to points, F_w is the wheel's flexibility relative to its hub.
+and its flexibility W = Res + scale P_r H S^-1 H^T P_r^T + P_w F_w P_w^T + scale n n^T S_ww^-1:
+H is the map from the track's dofs to its surface nodes, P_r and P_w interpolate nodes to points,
+Res is the rail's residual flexibility (`contact.residual`), F_w the wheel's relative to its hub.
 """
 
 from dataclasses import dataclass
-from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,24 +19,17 @@ from contactstudy.banded import Factor
 from contactstudy.contact.interpolation import SplineLine
 from contactstudy.contact.points import ContactPoints
 from contactstudy.contact.press import penalty_compliance
+from contactstudy.contact.residual import PatchSource, ResidualFlexibility
 from contactstudy.contact.search import CandidateList
 from contactstudy.contact.surface import contact_forces
 from contactstudy.dynamics import ContactStep
 from contactstudy.exceptions import NumericalError
-from contactstudy.track.patch import SurfacePatch
 
 Array = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
 NEAR = 0.3e-6
 """Points whose gap was below this [m] a step before enter the dense problem from the start."""
-
-
-class PatchSource(Protocol):
-    """A track that can show its running surface around a position."""
-
-    def patch(self, x: float, half_length: float) -> SurfacePatch:
-        """Running surface around X."""
 
 
 @dataclass(frozen=True)
@@ -82,6 +74,9 @@ class SurfaceCoupling:
         In Pa/m.
     rail_step : float
         Distance of the rail's surface nodes along X in m.
+    rail_period : int or None
+        Steps after which the rail's residual flexibility repeats; its ripple with the phase of
+        the mesh is then taken out, see `contact.residual`.
 
     Attributes
     ----------
@@ -102,6 +97,7 @@ class SurfaceCoupling:
         candidates: CandidateList,
         penalty: float,
         rail_step: float,
+        rail_period: int | None = None,
     ) -> None:
         self._track, self._points, self._candidates = track, points, candidates
         self.wheel_dof, self._positions, self._irregularity = wheel_dof, positions, irregularity
@@ -118,6 +114,7 @@ class SurfaceCoupling:
         self._listed: IntArray | None = None
         self._allowed = np.zeros(n, dtype=bool)
         self._patch_step = -1
+        self._rail_step, self._rail_period = rail_step, rail_period
         self._spline: SplineLine | None = None
         self.last = PatchState(np.zeros(n), self._active, np.zeros(0))
 
@@ -179,11 +176,21 @@ class SurfaceCoupling:
             # the nodes stand at equal distances: one spline serves all positions
             self._spline = SplineLine(patch.x - patch.x[0])
             self._across = SplineLine(patch.y, mirrored=self._points.symmetric)(self._points.y)
+            self._residual = ResidualFlexibility(
+                self._track,
+                self._spline,
+                self._across,
+                self._points.x,
+                self.half_length,
+                self._rail_step,
+                self._rail_period,
+            )
         self._along = self._spline(X - patch.x[0] + self._points.x)
         if patch.key != self._compliance_key:
             self._dof_compliance = self._compliance_of(patch.dofs)
             self._compliance_key = patch.key
         self._patch, self._patch_step = patch, step
+        self._residual_W = self._residual(X)
 
     def _interpolated(self, nodal: Array) -> Array:
         """Values at the points from values at the rail's surface nodes."""
@@ -236,7 +243,8 @@ class SurfaceCoupling:
                 P = self._along[index // ny, :, None] * self._across[index % ny, None, :]
                 P = P.reshape(len(index), -1)
                 PH = P @ H
-                M = P @ patch.residual @ P.T + PH @ (scale * C) @ PH.T
+                M = PH @ (scale * C) @ PH.T
+                M += self._residual_W.block(index)
                 M += self._wheel_W[index[:, None], index]
                 M += np.outer(wheel_scale * normal[index], normal[index])
                 M.flat[:: len(index) + 1] += self._compliance[index]
@@ -245,9 +253,10 @@ class SurfaceCoupling:
                 nodal = P.T @ solution.forces
             gap = (
                 free
-                + self._wheel_W[:, index] @ forces[index]
+                + self._wheel_W @ forces
+                + self._residual_W @ forces
                 + wheel_scale * normal * float(normal @ forces)
-                + self._interpolated(patch.residual @ nodal + H @ (scale * (C @ (H.T @ nodal))))
+                + self._interpolated(H @ (scale * (C @ (H.T @ nodal))))
             )
             missed = ~chosen & (gap < -1e-12)
             if not missed.any():

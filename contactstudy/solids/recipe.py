@@ -34,7 +34,7 @@ class CellRecipe:
     length: float = 0.1
     contact_half_width: float = 0.010
     interface_modes: int = 14
-    internal_modes: int = 6
+    internal_modes: int = 8
     symmetric: bool = True
     youngs_modulus: float = 210e9
     poisson_ratio: float = 0.3

@@ -110,6 +110,7 @@ def surface_contact(
         candidate_list(track, wheel),
         penalty,
         track.thickness,
+        track.residual_period,
     )
     kept = Instants(coupling, track, positions[:, 0], pressure_at)
     load = float(assembly.static_loads[0])

@@ -169,7 +169,7 @@ class SolidTable(Section):
     mesh_size: q.MeshSize = 0.002
     cell_length: q.CellLength = 0.1
     interface_modes: q.InterfaceModes = 14
-    internal_modes: q.InternalModes = 6
+    internal_modes: q.InternalModes = 8
     contact_half_length: q.Length = 0.012
     contact_half_width: q.Length = 0.008
     penalty: q.Penalty = 1e16

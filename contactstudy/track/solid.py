@@ -49,6 +49,10 @@ class SolidTrack:
     track : Track
         Its rail must be the one that the cell's recipe makes, see `solid_rail`.
     cell : RailCell
+    mean_phase : bool
+        Take the residual flexibility of the running surface as the mean over the phases of the
+        mesh under the wheel, see `contact.residual`. False: exactly that of the mesh, with its
+        ripple; for comparisons with the `UnreducedTrack`.
 
     Raises
     ------
@@ -59,6 +63,7 @@ class SolidTrack:
 
     track: Track
     cell: RailCell
+    mean_phase: bool = True
 
     def __post_init__(self) -> None:
         recipe, rail, problems = self.recipe, self.track.rail, []
@@ -243,6 +248,11 @@ class SolidTrack:
         return self.recipe.length / self.recipe.n_slices
 
     @property
+    def residual_period(self) -> int | None:
+        """Slices after which the mean residual flexibility repeats; None where no mean is taken."""
+        return self.recipe.n_slices if self.mean_phase else None
+
+    @property
     def _step(self) -> int:
         """Bare dofs of one plane and one cell's internal modes."""
         return self.recipe.interface_modes + self.recipe.internal_modes
@@ -346,5 +356,7 @@ class SolidTrack:
             start = c * self._step
             f = (1 - s) * self.cell.foot_map[i] + s * self.cell.foot_map[i + 1]
             row[start : start + len(f)] += w * f
+        # equal pads get equal rows bit for bit, so that products with them can share values
+        row = np.round(row, 12)
         used = np.flatnonzero((row != 0.0) & (place >= 0))
         return PadRow(place[used], row[used])

@@ -64,6 +64,11 @@ class UnreducedTrack:
         return self.recipe.length / self.recipe.n_slices
 
     @property
+    def residual_period(self) -> int | None:
+        """None: there is no residual."""
+        return None
+
+    @property
     def n_slices(self) -> int:
         """Slices of the whole track."""
         return round(self.track.length / self.thickness)

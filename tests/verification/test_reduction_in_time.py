@@ -22,34 +22,44 @@ STATIC = 67.4e3
 
 
 @pytest.mark.parametrize(
-    ("size", "support"),
+    "support",
     [
-        (0.006, WinklerFoundation(100e6, 100e3)),
-        pytest.param(0.006, DiscreteSupports(spacing=0.3, pad_length=0.0), marks=pytest.mark.slow),
-        pytest.param(0.004, WinklerFoundation(100e6, 100e3), marks=pytest.mark.slow),
+        WinklerFoundation(100e6, 100e3),
+        pytest.param(DiscreteSupports(pad_length=0.0), marks=pytest.mark.slow),
     ],
-    ids=["winkler", "pads", "finer"],
+    ids=["winkler", "pads"],
 )
-def test_reduced_against_unreduced(size, support):
-    """A wheel on the paper's roughness below 1 m crosses two cell borders of a 0.9 m rail.
+def test_reduced_against_unreduced(support):
+    """A wheel on the paper's roughness below 1 m crosses two cell borders of a 1.2 m rail.
 
-    Longer waves cannot be faded in on so short a rail.
+    Longer waves cannot be faded in on so short a rail. Both rails have the mesh's own phase under
+    the wheel (`mean_phase` is off). A step is one slice of the mesh long, so
+    that the mesh's ripple stays out of the comparison. At the start the dent
+    under the wheel sets off from rest to 83 m/s within one step; the condensed rail's residual
+    flexibility has no inertia to feel that, so the first millisecond has a bound of its own.
     """
-    recipe = CellRecipe(size=size)
-    track = Track(rail=solid_rail(recipe), length=0.9, support=support)
+    recipe = CellRecipe(size=0.004)
+    track = Track(rail=solid_rail(recipe), length=1.2, support=support)
     wheel = elastic_wheel(WheelRecipe(size=0.004))
     profile = sample_profile(paper_spectrum(), seed=1, band=(2 * np.pi, 20.0))
-    journey = Journey(start=0.33, end=0.57, time_step=5e-5, fade_in=0.1)
+    speed, step = 300 / 3.6, recipe.length / recipe.n_slices
+    journey = Journey(start=0.48, end=0.72, speed=speed, time_step=step / speed, fade_in=0.1)
     forces = []
-    for rail in (UnreducedTrack(track, recipe), SolidTrack(track, condense(recipe))):
+    for rail in (UnreducedTrack(track, recipe), SolidTrack(track, condense(recipe), False)):
         data = surface_contact(rail, wheel, wheel_column(), profile, journey)
         print(f"{rail.n_dofs} dofs: contact force", data.contact_force.values[::12])
         forces.append(data.contact_force.values)
-    difference = np.abs(forces[1] - forces[0]).max() / STATIC
+    difference = np.abs(forces[1] - forces[0]) / STATIC
+    setting_off = data.time.values < 1e-3
+    first, later = difference[setting_off].max(), difference[~setting_off].max()
     variation = np.ptp(forces[0]) / STATIC
-    print(f"largest difference {difference:.2e} of the static load; it varies by {variation:.2f}")
+    print(
+        f"largest difference {later:.1e} of the static load, {first:.1e} in the first"
+        f" millisecond; the force varies by {variation:.2f}"
+    )
     assert variation > 0.05  # the run is dynamic enough to tell
-    assert difference < 1e-3
+    assert later < 1e-3
+    assert first < 2e-3
 
 
 def test_no_ripple_at_the_cell_length():
@@ -57,7 +67,7 @@ def test_no_ripple_at_the_cell_length():
     recipe = CellRecipe(size=0.004)
     track = Track(rail=solid_rail(recipe), length=6.0, support=WinklerFoundation(60e6, 120e3))
     ripples = []
-    for internal in (6, 0):
+    for internal in (recipe.internal_modes, 0):
         cell = condense(CellRecipe(size=0.004, internal_modes=internal))
         data = surface_contact(
             SolidTrack(track, cell),
