@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import signal
 import sys
+import threading
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated
@@ -129,6 +131,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
         Instead of ``sys.argv[1:]``.
     """
     tokens = list(sys.argv[1:] if arguments is None else arguments)
+    if (
+        signal.getsignal(signal.SIGINT) is signal.SIG_IGN
+        and threading.current_thread() is threading.main_thread()
+    ):
+        # a shell starts background jobs of a script this way; an interrupt that is sent to a
+        # long computation by name shall end it all the same
+        signal.signal(signal.SIGINT, signal.default_int_handler)
     try:
         # Parsed and called apart, so that Ctrl-C in a command is ours to answer.
         command, bound, _ = app.parse_args(tokens, exit_on_error=False, print_error=False)

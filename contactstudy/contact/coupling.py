@@ -19,7 +19,7 @@ from contactstudy.banded import Factor
 from contactstudy.contact.interpolation import SplineLine
 from contactstudy.contact.points import ContactPoints
 from contactstudy.contact.press import penalty_compliance
-from contactstudy.contact.residual import PatchSource, ResidualFlexibility
+from contactstudy.contact.residual import PatchSource, ResidualFlexibility, patch_splines
 from contactstudy.contact.search import CandidateList
 from contactstudy.contact.surface import contact_forces
 from contactstudy.dynamics import ContactStep
@@ -173,9 +173,7 @@ class SurfaceCoupling:
         X = float(self._positions[step])
         patch = self._track.patch(X, self.half_length)
         if self._spline is None:
-            # the nodes stand at equal distances: one spline serves all positions
-            self._spline = SplineLine(patch.x - patch.x[0])
-            self._across = SplineLine(patch.y, mirrored=self._points.symmetric)(self._points.y)
+            self._spline, self._across = patch_splines(patch, self._points)
             self._residual = ResidualFlexibility(
                 self._track,
                 self._spline,

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contactstudy.contact.interpolation import SplineLine
+from contactstudy.contact.points import ContactPoints
 from contactstudy.track.patch import SurfacePatch
 
 Array = NDArray[np.float64]
@@ -106,3 +107,12 @@ class ResidualFlexibility:
     def _at(self, patch: SurfacePatch, X: float) -> Array:
         P = np.kron(self._along(X - patch.x[0] + self._x), self._across)
         return np.asarray(P @ patch.residual @ P.T)
+
+
+def patch_splines(patch: SurfacePatch, points: ContactPoints) -> tuple[SplineLine, Array]:
+    """Interpolation along the nodes of a patch, from its first, and that across at the points.
+
+    The nodes stand at equal distances, so one spline serves all positions of the patch.
+    """
+    across = SplineLine(patch.y, mirrored=points.symmetric)
+    return SplineLine(patch.x - patch.x[0]), across(points.y)

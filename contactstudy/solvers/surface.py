@@ -11,6 +11,7 @@ from contactstudy.banded import Factor
 from contactstudy.contact.coupling import SurfaceCoupling
 from contactstudy.contact.points import ContactPoints, contact_points, rolling_drop
 from contactstudy.contact.press import PressCurve, press_curve, rail_matrix
+from contactstudy.contact.residual import ResidualFlexibility, patch_splines
 from contactstudy.contact.search import CandidateList, FacetSearch, grid_surface
 from contactstudy.dynamics import Integrator, average_acceleration
 from contactstudy.irregularity import Profile, faded
@@ -208,16 +209,22 @@ def geometry_press(
     """
     points = wheel_points(wheel)
     x = (track.track.n_bays // 2 + 0.5) * track.track.bay_length if x is None else x
-    patch = track.patch(x, float(np.abs(points.x).max()) + 2 * track.thickness)
+    half_length = float(np.abs(points.x).max()) + 2 * track.thickness
+    patch = track.patch(x, half_length)
     factor = Factor(track.stiffness)
     unit = np.zeros((factor.n, len(patch.dofs)))
     unit[patch.dofs, np.arange(len(patch.dofs))] = 1.0
     solved = factor.solve(unit)
     C = solved[patch.dofs]
-    nodal = patch.map @ (0.5 * (C + C.T)) @ patch.map.T + patch.residual
     P = rail_matrix(points, patch.x, patch.y, x)
+    along, across = patch_splines(patch, points)
+    residual = ResidualFlexibility(
+        track, along, across, points.x, half_length, track.thickness, track.residual_period
+    )
+    PH = P @ patch.map
     tread = points.wheel_rows.matrix(len(wheel.flexibility))
-    W = P @ nodal @ P.T + tread @ wheel.flexibility @ tread.T
+    W = residual(x).block(np.arange(len(points.gap))) + tread @ wheel.flexibility @ tread.T
+    W += PH @ (0.5 * (C + C.T)) @ PH.T
     # deflection of the centre line per unit nodal force; forces push the rail down
     reference = P @ (patch.map @ (patch.centre_map @ solved[patch.centre_dofs]))
     reference += P @ patch.centre_residual

@@ -15,6 +15,7 @@ from contactstudy.exceptions import InputError
 from contactstudy.resources import resource
 from contactstudy.study import checks
 from contactstudy.study.messages import complaint, did_you_mean, from_validation, unknown
+from contactstudy.study.results import IRREGULARITY_GROUP
 from contactstudy.study.schema import SECTIONS, SOLVERS, Study
 from contactstudy.study.section import Section
 
@@ -154,6 +155,8 @@ def _runs(data: Any) -> tuple[dict[str, Any], list[str]]:
         path = f"runs.{name}"
         if not _RUN_NAME.fullmatch(name):
             problems.append(f"{path}: a run's name is letters, digits and _, a letter first")
+        elif name == IRREGULARITY_GROUP:
+            problems.append(f"{path}: a run cannot be called '{name}', which names its own group")
         if not isinstance(table, Mapping) or "solver" not in table:
             problems.append(f'{path}.solver: is missing; must be "point" or "surface"')
             continue

@@ -2,7 +2,7 @@
 
 Layout of an output directory::
 
-    result.nc       root: attributes of the study; group ``irregularity``; one group ``runs/<name>``
+    result.nc       root: attributes of the study; group ``irregularity``; one group a run
     metrics.json    sizes, times, memory and error norms
     figures/        *.pdf and *.png
     report.pdf
@@ -32,6 +32,7 @@ FloatArray = NDArray[np.float64]
 
 RESULT_FILE = "result.nc"
 METRICS_FILE = "metrics.json"
+IRREGULARITY_GROUP = "irregularity"
 
 
 @dataclass(frozen=True)
@@ -153,11 +154,11 @@ def write_results(results: StudyResults, out_dir: Path) -> None:
         root.attrs["reference"] = results.reference or ""
         root.to_netcdf(path, engine="h5netcdf", mode="w")
         _irregularity_dataset(results.irregularity).to_netcdf(
-            path, engine="h5netcdf", mode="a", group="irregularity"
+            path, engine="h5netcdf", mode="a", group=IRREGULARITY_GROUP
         )
         for name, run in results.runs.items():
             clean = netcdf_attributes(run)
-            clean.to_netcdf(path, engine="h5netcdf", mode="a", group=f"runs/{name}")
+            clean.to_netcdf(path, engine="h5netcdf", mode="a", group=name)
     with writing(out_dir / METRICS_FILE) as path:
         path.write_text(json.dumps(results.metrics, indent=2, ensure_ascii=False) + "\n", "utf-8")
 
@@ -176,9 +177,9 @@ def read_results(out_dir: Path) -> StudyResults:
         root = xr.load_dataset(path, engine="h5netcdf")
         loaded: dict[str, Any] = {key: root.attrs[key] for key in _ROOT_TEXTS}
         loaded |= {key: json.loads(root.attrs[key]) for key in _ROOT_JSON}
-        info = xr.load_dataset(path, engine="h5netcdf", group="irregularity")
+        info = xr.load_dataset(path, engine="h5netcdf", group=IRREGULARITY_GROUP)
         runs = {
-            name: xr.load_dataset(path, engine="h5netcdf", group=f"runs/{name}")
+            name: xr.load_dataset(path, engine="h5netcdf", group=name)
             for name in json.loads(root.attrs["runs"])
         }
         metrics = json.loads((out_dir / METRICS_FILE).read_text("utf-8"))

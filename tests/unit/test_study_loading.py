@@ -50,6 +50,7 @@ def test_the_shipped_comparison_is_the_issues():
         "point_tangent": ("point", "euler", "linear"),
         "hertz": ("point", "euler", "hertz"),
         "hertz_timoshenko": ("point", "timoshenko", "hertz"),
+        "timoshenko_tangent": ("point", "timoshenko", "linear"),
     }
     assert study.runs["point"].k_r == 1e11 and study.runs["point"].elements_per_bay == 4
     assert study.runs["point_tangent"].k_r == "tangent"
@@ -247,3 +248,8 @@ def test_config_and_units_are_plain_and_complete():
 def test_shipped_files_are_found_by_path_too():
     path = shipped_studies()["smooth_rail"]
     assert find_study(path) == path and isinstance(path, Path)
+
+
+def test_a_run_cannot_take_the_name_of_another_group():
+    with pytest.raises(InputError, match=r"runs\.irregularity: .*its own group"):
+        parse_study("s", {"runs": {"irregularity": {"solver": "point"}}})

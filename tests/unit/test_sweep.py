@@ -99,6 +99,15 @@ def test_after_is_waited_for(tasks_module):
 
 
 def test_interrupt_ends_the_workers(tasks_module, tmp_path):
+    # a test run in the background of a script starts with interrupts ignored
+    before_test = signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        _interrupt_while_a_task_sleeps(tasks_module, tmp_path)
+    finally:
+        signal.signal(signal.SIGINT, before_test)
+
+
+def _interrupt_while_a_task_sleeps(tasks_module, tmp_path):
     mark = tmp_path / "started"
 
     def interrupt() -> None:
