@@ -80,6 +80,8 @@ class SurfaceCoupling:
 
     Attributes
     ----------
+    points, positions
+        As given.
     half_length : float
         Of the patches asked of the track in m.
     last : PatchState
@@ -99,8 +101,8 @@ class SurfaceCoupling:
         rail_step: float,
         rail_period: int | None = None,
     ) -> None:
-        self._track, self._points, self._candidates = track, points, candidates
-        self.wheel_dof, self._positions, self._irregularity = wheel_dof, positions, irregularity
+        self._track, self.points, self._candidates = track, points, candidates
+        self.wheel_dof, self.positions, self._irregularity = wheel_dof, positions, irregularity
         self._compliance = penalty_compliance(points, penalty)
         n = len(points.gap)
         tread = points.wheel_rows.matrix(len(wheel_flexibility))
@@ -133,7 +135,7 @@ class SurfaceCoupling:
 
     def __call__(self, step: int, u_free: Array) -> ContactStep:
         """Forces at the end of a step."""
-        points, normal = self._points, self._points.normal_z
+        points, normal = self.points, self.points.normal_z
         self._move_to(step)
         patch = self._patch
         roughness = np.repeat(self._irregularity[step], len(points.y))
@@ -170,20 +172,20 @@ class SurfaceCoupling:
         """Patch and interpolation at a step."""
         if step == self._patch_step:
             return
-        X = float(self._positions[step])
+        X = float(self.positions[step])
         patch = self._track.patch(X, self.half_length)
         if self._spline is None:
-            self._spline, self._across = patch_splines(patch, self._points)
+            self._spline, self._across = patch_splines(patch, self.points)
             self._residual = ResidualFlexibility(
                 self._track,
                 self._spline,
                 self._across,
-                self._points.x,
+                self.points.x,
                 self.half_length,
                 self._rail_step,
                 self._rail_period,
             )
-        self._along = self._spline(X - patch.x[0] + self._points.x)
+        self._along = self._spline(X - patch.x[0] + self.points.x)
         if patch.key != self._compliance_key:
             self._dof_compliance = self._compliance_of(patch.dofs)
             self._compliance_key = patch.key
@@ -217,7 +219,7 @@ class SurfaceCoupling:
     def _candidate_points(self, approach: float) -> NDArray[np.bool_]:
         listed = self._candidates.quads(approach)
         if listed is not self._listed:
-            self._allowed = np.isin(self._points.facet, listed)
+            self._allowed = np.isin(self.points.facet, listed)
             self._listed = listed
         return self._allowed
 
@@ -229,10 +231,10 @@ class SurfaceCoupling:
         The dense problem holds the chosen points only. Its solution is checked at all points;
         those found overlapping join, so the restriction never changes the result.
         """
-        n, normal, patch = len(free), self._points.normal_z, self._patch
+        n, normal, patch = len(free), self.points.normal_z, self._patch
         scale, C, H = self._scale, self._dof_compliance, patch.map
         wheel_scale = scale * self._wheel_compliance
-        ny = len(self._points.y)
+        ny = len(self.points.y)
         for _ in range(20):
             index = np.flatnonzero(chosen)
             forces, active = np.zeros(n), np.zeros(n, dtype=bool)
@@ -264,22 +266,22 @@ class SurfaceCoupling:
             if np.any(missed & ~allowed):
                 raise NumericalError(
                     f"contact search missed points in contact at step {step}, X = "
-                    f"{self._positions[step]:.4f} m: gap {gap[missed & ~allowed].min():.3e} m "
+                    f"{self.positions[step]:.4f} m: gap {gap[missed & ~allowed].min():.3e} m "
                     "outside the candidate facets"
                 )
             chosen = chosen | missed
         raise NumericalError(
             f"contact: the set of points near contact does not settle at step {step}, X = "
-            f"{self._positions[step]:.4f} m ({len(index)} of {n} points)"
+            f"{self.positions[step]:.4f} m ({len(index)} of {n} points)"
         )
 
     def _check_edge(self, step: int, active: NDArray[np.bool_]) -> None:
-        grid = active.reshape(len(self._points.x), -1)
-        side = grid[:, -1].any() or (not self._points.symmetric and grid[:, 0].any())
+        grid = active.reshape(len(self.points.x), -1)
+        side = grid[:, -1].any() or (not self.points.symmetric and grid[:, 0].any())
         if grid[0].any() or grid[-1].any() or side:
             raise NumericalError(
                 f"contact patch reaches the edge of the finely meshed zone at step {step}, X = "
-                f"{self._positions[step]:.4f} m: enlarge the wheel's contact zone "
-                f"(now {self._points.wheel_x[0]:.4g} to {self._points.wheel_x[-1]:.4g} m along, "
-                f"{self._points.wheel_y[0]:.4g} to {self._points.wheel_y[-1]:.4g} m across)"
+                f"{self.positions[step]:.4f} m: enlarge the wheel's contact zone "
+                f"(now {self.points.wheel_x[0]:.4g} to {self.points.wheel_x[-1]:.4g} m along, "
+                f"{self.points.wheel_y[0]:.4g} to {self.points.wheel_y[-1]:.4g} m across)"
             )

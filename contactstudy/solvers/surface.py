@@ -97,23 +97,10 @@ def surface_contact(
     ]
     raise_if(problems)
 
-    points = wheel_points(wheel)
-    positions = journey.wheel_positions(vehicle.wheel_offsets)
-    profile = faded(irregularity, float(positions[0, 0]), journey.fade_in)
     assembly = Assembly(track, vehicle)
-    coupling = SurfaceCoupling(
-        track,
-        points,
-        wheel.flexibility,
-        int(assembly.wheel_dofs[0]),
-        positions[:, 0],
-        profile(positions + points.x),
-        candidate_list(track, wheel),
-        penalty,
-        track.thickness,
-        track.residual_period,
-    )
-    kept = Instants(coupling, track, positions[:, 0], pressure_at)
+    coupling, r = surface_coupling(assembly, wheel, irregularity, journey, penalty)
+    points = coupling.points
+    kept = Instants(coupling, track, coupling.positions, pressure_at)
     load = float(assembly.static_loads[0])
     pressed = geometry_press(track, wheel, load * PRESS_LOADS, penalty)
     elastic = bool(wheel.flexibility.any())
@@ -122,7 +109,7 @@ def surface_contact(
         coupling,
         journey,
         integrator,
-        profile(positions),
+        r,
         setup_began=began,
         attrs={
             "solver": "surface",
@@ -145,6 +132,51 @@ def surface_contact(
         {"units": "m", "long_name": "approach of the wheel's hub to the rail's centre line"},
     )
     return kept.into(data, points, wheel)
+
+
+def surface_coupling(
+    assembly: Assembly,
+    wheel: WheelFlexibility,
+    irregularity: Profile,
+    journey: Journey,
+    penalty: float = 1e16,
+) -> tuple[SurfaceCoupling, Array]:
+    """Join the contact points of a wheel to all positions of a journey.
+
+    Parameters
+    ----------
+    assembly : Assembly
+        Of a `SolidTrack` or `UnreducedTrack` and a vehicle with one wheel.
+    wheel : WheelFlexibility
+    irregularity : Profile
+        Before it is faded in.
+    journey : Journey
+    penalty : float
+        In Pa/m.
+
+    Returns
+    -------
+    coupling : SurfaceCoupling
+    irregularity : ndarray (n_times, 1)
+        r under the wheel, faded in from its start, in m.
+    """
+    track, points = assembly.track, wheel_points(wheel)
+    assert isinstance(track, SolidTrack | UnreducedTrack)
+    positions = journey.wheel_positions(assembly.vehicle.wheel_offsets)
+    profile = faded(irregularity, float(positions[0, 0]), journey.fade_in)
+    coupling = SurfaceCoupling(
+        track,
+        points,
+        wheel.flexibility,
+        int(assembly.wheel_dofs[0]),
+        positions[:, 0],
+        profile(positions + points.x),
+        candidate_list(track, wheel),
+        penalty,
+        track.thickness,
+        track.residual_period,
+    )
+    return coupling, profile(positions)
 
 
 def wheel_points(wheel: WheelFlexibility) -> ContactPoints:
