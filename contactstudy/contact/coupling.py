@@ -40,14 +40,11 @@ class PatchState:
     ----------
     forces : ndarray (n,)
         Normal forces in N.
-    active : ndarray of bool (n,)
-        Points in contact.
     surface_load : ndarray (nodes,)
         Nodal forces on the rail's surface patch, in N, positive into the rail.
     """
 
     forces: Array
-    active: NDArray[np.bool_]
     surface_load: Array
 
 
@@ -110,7 +107,6 @@ class SurfaceCoupling:
         self._tread, self._tread_area = tread.T, tread.T @ points.area
         # two nodes beyond the outermost point, for the spline
         self.half_length = float(np.abs(points.x).max()) + 2 * rail_step
-        self._penalty = penalty
         self._active = np.zeros(n, dtype=bool)
         self._gap = points.gap
         self._listed: IntArray | None = None
@@ -118,7 +114,7 @@ class SurfaceCoupling:
         self._patch_step = -1
         self._rail_step, self._rail_period = rail_step, rail_period
         self._spline: SplineLine | None = None
-        self.last = PatchState(np.zeros(n), self._active, np.zeros(0))
+        self.last = PatchState(np.zeros(n), np.zeros(0))
 
     def attach(self, factor: Factor, scale: float) -> None:
         """Take the factor of the system and the share of the new force in a step."""
@@ -157,7 +153,7 @@ class SurfaceCoupling:
         increment = np.zeros(len(u_free))
         increment[self._reach] = -self._scale * (modal @ self._response)
         increment[self._vehicle] += self._scale * total * self._vehicle_response
-        self.last = PatchState(forces, active, surface_load)
+        self.last = PatchState(forces, surface_load)
         record: dict[str, Array | float] = {
             "contact_force": np.array([total]),
             "contact_area": points.contact_area(active),

@@ -11,8 +11,9 @@ from contactstudy.dynamics import Integrator, average_acceleration, generalised_
 from contactstudy.exceptions import InputError
 from contactstudy.irregularity import Profile, faded
 from contactstudy.solvers.journey import Journey
-from contactstudy.solvers.run import Assembly, DiscreteTrack, Progress, run
+from contactstudy.solvers.run import Assembly, Progress, run
 from contactstudy.track.beam import BeamTrack, RailTheory
+from contactstudy.track.discrete import DiscreteTrack
 from contactstudy.track.model import Direction, Track
 from contactstudy.validation import raise_if
 from contactstudy.vehicle import Vehicle

@@ -3,7 +3,6 @@
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Protocol
 
 import numpy as np
 import scipy.sparse as sp
@@ -15,44 +14,14 @@ from contactstudy.rows import row_values
 from contactstudy.solvers.dataset import history_dataset
 from contactstudy.solvers.journey import Journey
 from contactstudy.statics import static_start
-from contactstudy.track.model import Direction, Track
+from contactstudy.track.discrete import DiscreteTrack
+from contactstudy.track.model import Direction
 from contactstudy.vehicle import Vehicle
 
-Irregularity = Callable[[np.ndarray], np.ndarray]
 Progress = Callable[[int, int], None]
 
 STEPS_PER_REPORT = 100
 """How many steps pass between two calls of `progress`."""
-
-
-class DiscreteTrack(Protocol):
-    """What a discretised track offers, beam or solid."""
-
-    @property
-    def track(self) -> Track:
-        """The track that is discretised."""
-
-    @property
-    def n_dofs(self) -> int:
-        """Number of dofs."""
-
-    @property
-    def mass(self) -> sp.csr_array:
-        """Mass matrix."""
-
-    @property
-    def damping(self) -> sp.csr_array:
-        """Damping matrix."""
-
-    @property
-    def stiffness(self) -> sp.csr_array:
-        """Stiffness matrix."""
-
-    def rail_rows(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Dofs and weights (m, k) of the displacement of the rail's centre line at X (m,)."""
-
-    def local_compliance(self, x: np.ndarray) -> np.ndarray:
-        """Compliance under the load that the dofs leave out, (m,) [m/N]."""
 
 
 @dataclass(frozen=True)

@@ -34,7 +34,7 @@ def combined(sections: Mapping[str, Any], runs: Mapping[str, RunTable]) -> list[
     solid: SolidTable | None = sections.get("solid")
     irregularity: IrregularityTable | None = sections.get("irregularity")
     if irregularity is not None:
-        problems += _irregularity(irregularity, runs)
+        problems += _irregularity(irregularity)
     if track is not None:
         problems += _track(track)
     if journey is not None:
@@ -56,7 +56,7 @@ def _increasing(path: str, pair: tuple[float, float], unit: str) -> list[str]:
     return [complaint(path, list(pair), f"must increase, lowest first ({unit})")]
 
 
-def _irregularity(table: IrregularityTable, runs: Mapping[str, RunTable]) -> list[str]:
+def _irregularity(table: IrregularityTable) -> list[str]:
     problems = _increasing("irregularity.band", table.band, "rad/m")
     problems += _increasing("irregularity.wavelengths", table.wavelengths, "m")
     if table.spectrum == "measured" and not table.file:

@@ -5,8 +5,8 @@ from functools import cached_property
 from typing import Literal
 
 import numpy as np
-import scipy.sparse as sp
 
+from contactstudy.track.discrete import AssembledTrack
 from contactstudy.track.hermite import BeamElement
 from contactstudy.track.inner_dofs import InnerDofs, pad_parts
 from contactstudy.track.model import Direction, Track, WinklerFoundation
@@ -17,7 +17,7 @@ RailTheory = Literal["euler", "timoshenko"]
 
 
 @dataclass(frozen=True)
-class BeamTrack:
+class BeamTrack(AssembledTrack):
     """A discretised track whose rail is a chain of equal beam elements.
 
     Parameters
@@ -73,26 +73,6 @@ class BeamTrack:
             rail.shear_stiffness(self.direction),
             rail.rotary_inertia(self.direction),
         )
-
-    @property
-    def n_dofs(self) -> int:
-        """Number of dofs, end conditions eliminated."""
-        return self.stiffness.shape[0]
-
-    @property
-    def mass(self) -> sp.csr_array:
-        """Mass matrix (n_dofs, n_dofs)."""
-        return self._assembled.mass
-
-    @property
-    def damping(self) -> sp.csr_array:
-        """Damping matrix (n_dofs, n_dofs): pads, ballast or foundation."""
-        return self._assembled.damping
-
-    @property
-    def stiffness(self) -> sp.csr_array:
-        """Stiffness matrix (n_dofs, n_dofs)."""
-        return self._assembled.stiffness
 
     def rail_rows(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Rows that give the rail's deflection at X.

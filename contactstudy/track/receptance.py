@@ -1,38 +1,15 @@
 """Receptance of a discretised track in the frequency domain."""
 
-from typing import Protocol
-
 import numpy as np
 import scipy.linalg
 import scipy.sparse as sp
 
 from contactstudy.exceptions import NumericalError
-
-
-class LinearTrack(Protocol):
-    """What is needed of a discretised track: its matrices and the rail's rows."""
-
-    @property
-    def mass(self) -> sp.csr_array:
-        """Mass matrix."""
-
-    @property
-    def damping(self) -> sp.csr_array:
-        """Damping matrix."""
-
-    @property
-    def stiffness(self) -> sp.csr_array:
-        """Stiffness matrix."""
-
-    def rail_rows(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Dofs and weights (m, k) of the rail's displacement at X (m,)."""
-
-    def local_compliance(self, x: np.ndarray) -> np.ndarray:
-        """Compliance under the load that the dofs leave out, (m,) [m/N]."""
+from contactstudy.track.discrete import DiscreteTrack
 
 
 def receptance(
-    track: LinearTrack, x: float, frequency: np.ndarray, at: float | None = None
+    track: DiscreteTrack, x: float, frequency: np.ndarray, at: float | None = None
 ) -> np.ndarray:
     """Displacement per harmonic unit force on the rail, exp(+i omega t).
 
@@ -41,7 +18,7 @@ def receptance(
 
     Parameters
     ----------
-    track : LinearTrack
+    track : DiscreteTrack
         Any discretised track; only its dofs and `local_compliance` count.
     x : float
         Position of the force [m].

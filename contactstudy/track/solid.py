@@ -1,6 +1,6 @@
 """The track with its rail as a three-dimensional solid: a chain of condensed cells."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -11,6 +11,7 @@ from contactstudy.exceptions import InputError
 from contactstudy.solids.cell import RailCell, section_of
 from contactstudy.solids.pair import CellPair, cell_pair
 from contactstudy.solids.recipe import CellRecipe
+from contactstudy.track.discrete import AssembledTrack
 from contactstudy.track.model import DiscreteSupports, Rail, Track, WinklerFoundation
 from contactstudy.track.patch import SectionResponse, SurfacePatch
 from contactstudy.track.supports import PadRow, SupportedRail, add_supports
@@ -34,14 +35,8 @@ def solid_rail(recipe: CellRecipe) -> Rail:
     )
 
 
-def fitted_recipe(recipe: CellRecipe, track: Track) -> CellRecipe:
-    """The recipe with the nearest cell length that divides the track's bay."""
-    cells = max(1, round(track.bay_length / recipe.length))
-    return replace(recipe, length=track.bay_length / cells)
-
-
 @dataclass(frozen=True)
-class SolidTrack:
+class SolidTrack(AssembledTrack):
     """A discretised track whose rail is a chain of equal condensed cells.
 
     Parameters
@@ -106,26 +101,6 @@ class SolidTrack:
     def n_cells(self) -> int:
         """Number of cells."""
         return round(self.track.length / self.recipe.length)
-
-    @property
-    def n_dofs(self) -> int:
-        """Number of dofs, end conditions eliminated."""
-        return self.stiffness.shape[0]
-
-    @property
-    def mass(self) -> sp.csr_array:
-        """Mass matrix (n_dofs, n_dofs)."""
-        return self._assembled.mass
-
-    @property
-    def damping(self) -> sp.csr_array:
-        """Damping matrix (n_dofs, n_dofs): pads, ballast or foundation."""
-        return self._assembled.damping
-
-    @property
-    def stiffness(self) -> sp.csr_array:
-        """Stiffness matrix (n_dofs, n_dofs)."""
-        return self._assembled.stiffness
 
     def rail_rows(self, x: Array) -> tuple[IntArray, Array]:
         """Rows that give the deflection of the rail's centre line at X.

@@ -17,6 +17,7 @@ from contactstudy.solids.extrusion import ExtrudedSlice
 from contactstudy.solids.recipe import CellRecipe
 from contactstudy.solids.section_mesh import SectionMesh
 from contactstudy.solids.section_rows import SectionRows
+from contactstudy.track.discrete import AssembledTrack
 from contactstudy.track.model import Track, WinklerFoundation
 from contactstudy.track.patch import SectionResponse, SurfacePatch
 from contactstudy.track.supports import PadRow, SupportedRail, add_supports
@@ -26,7 +27,7 @@ IntArray = NDArray[np.int64]
 
 
 @dataclass(frozen=True)
-class UnreducedTrack:
+class UnreducedTrack(AssembledTrack):
     """A discretised track that keeps all nodes of the rail's mesh.
 
     Parameters
@@ -73,26 +74,6 @@ class UnreducedTrack:
         """Slices of the whole track."""
         return round(self.track.length / self.thickness)
 
-    @property
-    def n_dofs(self) -> int:
-        """Number of dofs, clamped end planes eliminated."""
-        return self.mass.shape[0]
-
-    @property
-    def mass(self) -> sp.csr_array:
-        """Mass matrix (n_dofs, n_dofs)."""
-        return self._assembled.mass
-
-    @property
-    def damping(self) -> sp.csr_array:
-        """Damping matrix (n_dofs, n_dofs)."""
-        return self._assembled.damping
-
-    @property
-    def stiffness(self) -> sp.csr_array:
-        """Stiffness matrix (n_dofs, n_dofs)."""
-        return self._assembled.stiffness
-
     def rail_rows(self, x: Array) -> tuple[IntArray, Array]:
         """Rows of the section's mean deflection at X, as `SolidTrack.rail_rows`."""
         index, t = self._locate(np.atleast_1d(np.asarray(x, dtype=float)))
@@ -103,7 +84,7 @@ class UnreducedTrack:
         return np.where(dofs < 0, 0, dofs), np.where(dofs < 0, 0.0, weights)
 
     def local_compliance(self, x: Array) -> Array:
-        """Zero, as for the condensed track."""
+        """Zero, (m,) [m/N]: no dof of the mesh is left out."""
         return np.zeros(np.atleast_1d(x).shape)
 
     def patch(self, x: float, half_length: float) -> SurfacePatch:
