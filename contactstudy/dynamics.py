@@ -15,7 +15,6 @@ from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
-import scipy.sparse as sp
 from numba import njit
 
 from contactstudy.banded import Factor, LinearSystem
@@ -27,6 +26,7 @@ from contactstudy.integrators import (
     newmark,
 )
 from contactstudy.validation import positive, raise_if
+from contactstudy.windows import add_product, windows
 
 __all__ = [
     "ContactStep",
@@ -150,7 +150,7 @@ def march(
     factor = Factor(system.combine(wm * c0, wf * d0, wf))
     if coupling is not None:
         coupling.attach(factor, wf)
-    mass, damping, stiffness = map(_windows, (system.mass, system.damping, system.stiffness))
+    mass, damping, stiffness = map(windows, (system.mass, system.damping, system.stiffness))
     # S u* = (1-af) f_ext(n+1) + af f(n) + M(...) + C(...) + K(...), each (...) = (c u + d v + e a)
     of_mass = np.array([wm * c0, -wm * c2, -wm * c3 - alpha_m])
     of_damping = np.array([wf * d0, -wf * d2 - alpha_f, -wf * d3])
@@ -160,11 +160,11 @@ def march(
     for step in range(1, n_steps + 1):
         ext = load_at(step)
         rhs = wf * ext
-        _add_product(*mass, of_mass, u, v, a, rhs)
-        _add_product(*damping, of_damping, u, v, a, rhs)
+        add_product(*mass, of_mass, u, v, a, rhs)
+        add_product(*damping, of_damping, u, v, a, rhs)
         if alpha_f != 0.0:
             rhs += alpha_f * load
-            _add_product(*stiffness, of_stiffness, u, v, a, rhs)
+            add_product(*stiffness, of_stiffness, u, v, a, rhs)
         u_new = factor.solve(rhs)
         contact = None
         load = ext
@@ -182,60 +182,6 @@ def march(
             )
         u, v, a = u_new, v_new, a_new
         yield State(step, step * dt, u, v, a, load, contact)
-
-
-def _windows(matrix: sp.csr_array) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Rows as contiguous windows from their first to their last nonzero column.
-
-    Returns the first column of each row, its width and where its values begin, all (n,), and
-    the values. A banded matrix has few zeros inside its windows, so no column needs looking up.
-    Rows with the same values share them: a rail is a chain of equal cells, and the few different
-    rows then stay in the processor's cache.
-    """
-    csr = sp.csr_array(matrix)
-    csr.sort_indices()
-    n = csr.shape[0]
-    first, width, begin = (np.zeros(n, dtype=np.int64) for _ in range(3))
-    known: dict[bytes, int] = {}
-    pieces, length = [np.zeros(0)], 0
-    for row in range(n):
-        here = slice(csr.indptr[row], csr.indptr[row + 1])
-        columns = csr.indices[here]
-        if len(columns) == 0:
-            continue
-        first[row], width[row] = columns[0], columns[-1] - columns[0] + 1
-        window = np.zeros(width[row])
-        window[columns - columns[0]] = csr.data[here]
-        key = window.tobytes()
-        if key not in known:
-            known[key] = length
-            pieces.append(window)
-            length += len(window)
-        begin[row] = known[key]
-    return first, width, begin, np.concatenate(pieces)
-
-
-@njit(cache=True, fastmath={"reassoc", "contract"})
-def _add_product(
-    first: np.ndarray,
-    width: np.ndarray,
-    begin: np.ndarray,
-    values: np.ndarray,
-    coefficients: np.ndarray,
-    u: np.ndarray,
-    v: np.ndarray,
-    a: np.ndarray,
-    y: np.ndarray,
-) -> None:
-    """y += A (c0 u + c1 v + c2 a) for a matrix A in windows."""
-    x = coefficients[0] * u + coefficients[1] * v + coefficients[2] * a
-    for row in range(len(y)):
-        here = values[begin[row] : begin[row] + width[row]]
-        there = x[first[row] : first[row] + width[row]]
-        total = 0.0
-        for k in range(width[row]):
-            total += here[k] * there[k]
-        y[row] += total
 
 
 @njit(cache=True)
