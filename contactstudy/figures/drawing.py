@@ -134,6 +134,11 @@ def wheel_note(results: StudyResults) -> str:
     return " Of several wheels the leading one is shown." if several else ""
 
 
+def capital(text: str) -> str:
+    """`text` with its first letter as a capital."""
+    return text[:1].upper() + text[1:]
+
+
 def number(value: float, digits: int = 3) -> str:
     """`value` to `digits` significant digits in plain text with a typographic minus.
 

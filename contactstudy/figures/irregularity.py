@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter
 from numpy.typing import ArrayLike
 
-from contactstudy.figures.drawing import Drawing, exact, number, position
+from contactstudy.figures.drawing import Drawing, capital, exact, number, position
 from contactstudy.figures.style import BLACK, BLUE, GREEN, SHADE, VERMILION, new_figure
 from contactstudy.study.results import IrregularityInfo, Level, Spectrum, StudyResults
 
@@ -62,7 +62,7 @@ def comparisons(info: IrregularityInfo) -> list[str]:
         if np.isfinite(mean):
             side = "above" if mean > 0 else "below"
             sentences.append(
-                f"{_capital(other.label)} lies on average {number(abs(mean), 2)} dB {side} "
+                f"{capital(other.label)} lies on average {number(abs(mean), 2)} dB {side} "
                 f"{info.spectrum.label} between {exact(low, 3)} and {exact(high, 3)} rad/m."
             )
     return sentences
@@ -86,10 +86,6 @@ def _spectrum_caption(info: IrregularityInfo) -> str:
             f"{number(2 * np.pi / low)} m); outside it is drawn thin."
         )
     return text
-
-
-def _capital(text: str) -> str:
-    return text[:1].upper() + text[1:]
 
 
 def _spectra(info: IrregularityInfo) -> Figure:
@@ -125,7 +121,7 @@ def _line(axes: Axes, spectrum: Spectrum, color: str, dashes: object, width: flo
     valid = (x >= spectrum.band[0]) & (x <= spectrum.band[1])
     axes.plot(x, np.where(y > 0, y, np.nan), color=color, lw=0.4 * width, alpha=0.7)
     inside = np.where(valid & (y > 0), y, np.nan)
-    axes.plot(x, inside, color=color, ls=dashes, lw=width, label=_capital(spectrum.label))
+    axes.plot(x, inside, color=color, ls=dashes, lw=width, label=capital(spectrum.label))
 
 
 def _limits(axes: Axes, info: IrregularityInfo) -> None:

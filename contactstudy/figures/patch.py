@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Ellipse
@@ -120,15 +121,14 @@ def _map(patch: Patch, hertz: HertzPatch | None) -> Figure:
     return figure
 
 
-def _field(axes: Axes, x: FloatArray, y: FloatArray, p: FloatArray):  # type: ignore[no-untyped-def]
+def _field(axes: Axes, x: FloatArray, y: FloatArray, p: FloatArray) -> ScalarMappable:
     """Cells about the nodes where these form a grid, else interpolated between them."""
     gx, ix = np.unique(np.round(x, 6), return_inverse=True)
     gy, iy = np.unique(np.round(y, 6), return_inverse=True)
     if gx.size * gy.size == x.size:
         grid = np.full((gy.size, gx.size), np.nan)
         grid[iy, ix] = np.where(p > 0, p, np.nan)  # no colour where nothing touches
-        mesh = axes.pcolormesh(gx, gy, grid, cmap="cividis_r", vmin=0, shading="nearest")
-        return mesh
+        return axes.pcolormesh(gx, gy, grid, cmap="cividis_r", vmin=0, shading="nearest")
     levels = np.linspace(0, p.max(), 13)
     return axes.tricontourf(x, y, p, levels=levels, cmap="cividis_r")
 

@@ -4,7 +4,16 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from contactstudy.figures.drawing import exact, fade_end, label, number, position, speed, values
+from contactstudy.figures.drawing import (
+    capital,
+    exact,
+    fade_end,
+    label,
+    number,
+    position,
+    speed,
+    values,
+)
 from contactstudy.figures.irregularity import comparisons
 from contactstudy.figures.passing_components import all_passing
 from contactstudy.report.metrics import between, of_run
@@ -44,7 +53,7 @@ def _case(results: StudyResults) -> str:
     x = position(run)
     count = len(results.runs)
     text = (
-        f"{_capital(_count(count))} model{'s' if count > 1 else ''} of a wheel rolling on a rail "
+        f"{capital(_count(count))} model{'s' if count > 1 else ''} of a wheel rolling on a rail "
         f"{'are' if count > 1 else 'is'} run over the same track, with the same vehicle, the same "
         f"irregularity and the same time stepper, from X = {exact(x[0])} to {exact(x[-1])} m "
         f"at {exact(round(speed(run) * 3.6, 3))} km/h."
@@ -167,7 +176,3 @@ def _listing(parts: list[str]) -> str:
 def _count(n: int) -> str:
     words = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine")
     return words[n] if n < len(words) else str(n)
-
-
-def _capital(text: str) -> str:
-    return text[:1].upper() + text[1:]
