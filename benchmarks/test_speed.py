@@ -74,15 +74,19 @@ def report(benchmark, dataset, one_solution):
 @pytest.mark.parametrize("law", [LinearSpring(1e11), HertzSpring(9.25e10)], ids=["k_r", "hertz"])
 @pytest.mark.parametrize("local", [False, True], ids=["paper", "local compliance"])
 def test_point_step(benchmark, law, local):
-    run = lambda: point_contact(  # noqa: E731
-        Track(), wheel_column(), profile(), JOURNEY, law=law, local_compliance=local
-    )
+    def run():
+        return point_contact(
+            Track(), wheel_column(), profile(), JOURNEY, law=law, local_compliance=local
+        )
+
     run()  # compiled kernels are loaded
     report(benchmark, benchmark(run), baseline(BeamTrack(Track()).stiffness))
 
 
 def test_surface_step(benchmark):
-    run = lambda: surface_contact(solid_track(), wheel(), wheel_column(), profile(), JOURNEY)  # noqa: E731
+    def run():
+        return surface_contact(solid_track(), wheel(), wheel_column(), profile(), JOURNEY)
+
     run()
     report(benchmark, benchmark(run), baseline(solid_track().stiffness))
 

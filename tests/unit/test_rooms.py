@@ -1,0 +1,78 @@
+"""Data flow one way: a room imports only from rooms above it (the table in CONTRIBUTING.md)."""
+
+import ast
+from pathlib import Path
+
+import contactstudy
+
+PACKAGE = Path(contactstudy.__file__).parent
+# from top to bottom; modules of one line may import each other
+ORDER = (
+    ("__init__",),
+    ("exceptions",),
+    ("validation", "units", "resources", "provenance"),
+    ("profiles",),
+    ("irregularity",),
+    ("solids",),
+    ("track",),
+    ("vehicle",),
+    ("rows", "windows", "banded", "integrators", "dynamics", "statics"),
+    ("contact",),
+    ("solvers",),
+    ("errors", "convergence", "energy", "passing"),
+    ("sweep",),
+    ("study",),
+    ("figures",),
+    ("report",),
+    ("cli", "__main__"),
+)
+LEVEL = {room: level for level, rooms in enumerate(ORDER) for room in rooms}
+# the last step of a study draws and typesets what the steps before it have computed
+EXCEPTIONS = {("study/runner.py", "figures"), ("study/runner.py", "report")}
+
+
+def imported_rooms(path):
+    """Rooms that a file imports from, also within functions."""
+    for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+        names = []
+        if isinstance(node, ast.Import):
+            names = [alias.name for alias in node.names]
+        elif isinstance(node, ast.ImportFrom):
+            assert node.level == 0, f"{path}: relative import"
+            names = [f"{node.module}.{alias.name}" for alias in node.names]
+        for name in names:
+            parts = name.split(".")
+            if parts[0] == "contactstudy":
+                known = len(parts) > 1 and parts[1] in LEVEL
+                yield parts[1] if known else "__init__"
+
+
+def test_every_room_has_its_place():
+    rooms = {path.stem for path in PACKAGE.iterdir() if path.suffix == ".py"}
+    rooms |= {path.parent.name for path in PACKAGE.glob("*/__init__.py")}
+    assert rooms <= set(LEVEL)
+
+
+def test_rooms_import_only_from_rooms_above():
+    wrong, used = [], set()
+    for path in sorted(PACKAGE.rglob("*.py")):
+        name = path.relative_to(PACKAGE).as_posix()
+        own = name.split("/")[0].removesuffix(".py")
+        for room in imported_rooms(path):
+            if (name, room) in EXCEPTIONS:
+                used.add((name, room))
+            elif LEVEL[room] > LEVEL[own]:
+                wrong.append(f"{name} imports from {room}")
+    assert not wrong
+    assert used == EXCEPTIONS
+
+
+def test_the_guide_names_the_rooms_in_this_order():
+    guide = PACKAGE.parent / "CONTRIBUTING.md"
+    text = guide.read_text("utf-8")
+    table = text[text.index("| where |") : text.index("Outside the package")]
+    rows = [line.split("|")[1] for line in table.splitlines()[2:] if line.startswith("|")]
+    named = [cell.strip("` /").removesuffix(".py") for row in rows for cell in row.split(",")]
+    levels = [LEVEL[name] for name in named]
+    assert levels == sorted(levels)
+    assert set(named) == set(LEVEL) - {"__init__", "__main__"}
