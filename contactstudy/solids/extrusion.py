@@ -20,7 +20,8 @@ class ExtrudedSlice:
     Attributes
     ----------
     stiffness, mass : Slice
-        Blocks in N/m and kg on (plane at x = 0, plane at x = thickness).
+        Blocks in N/m and kg on (plane at x = 0, plane at x = thickness); of the WHOLE body in
+        symmetric motion, where only half a section is meshed.
     thickness : float
         Extent along X in m.
     free : ndarray (n,)
@@ -28,8 +29,6 @@ class ExtrudedSlice:
         the lateral displacement is left out).
     n_nodes : int
         Nodes of a plane.
-    factor : float
-        2 for the half section: blocks stand for the WHOLE body in symmetric motion.
     """
 
     stiffness: Slice
@@ -37,13 +36,6 @@ class ExtrudedSlice:
     thickness: float
     free: IntArray
     n_nodes: int
-    factor: float
-
-    def component(self, nodes: IntArray, direction: int) -> IntArray:
-        """Index among the plane's free degrees of freedom of one component of some nodes."""
-        position = np.full(3 * self.n_nodes, -1, dtype=np.int64)
-        position[self.free] = np.arange(len(self.free))
-        return np.asarray(position[3 * nodes + direction])
 
 
 def extrude(
@@ -92,5 +84,4 @@ def extrude(
         thickness,
         free,
         n,
-        factor,
     )

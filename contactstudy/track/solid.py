@@ -4,23 +4,20 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-import scipy.sparse as sp
 from numpy.typing import NDArray
 
 from contactstudy.exceptions import InputError
 from contactstudy.solids.cell import RailCell, section_of
 from contactstudy.solids.pair import CellPair, cell_pair
 from contactstudy.solids.recipe import CellRecipe
+from contactstudy.track.cell_chain import CellChain
 from contactstudy.track.discrete import AssembledTrack
 from contactstudy.track.model import DiscreteSupports, Rail, Track, WinklerFoundation
 from contactstudy.track.patch import SectionResponse, SurfacePatch
-from contactstudy.track.supports import PadRow, SupportedRail, add_supports
+from contactstudy.track.supports import SupportedRail, add_supports
 
 Array = NDArray[np.float64]
 IntArray = NDArray[np.int64]
-
-# coordinates of an interface plane that are its rigid motions, see `interface_basis`
-_AXIAL, _VERTICAL = 0, 1
 
 
 def solid_rail(recipe: CellRecipe) -> Rail:
@@ -118,17 +115,17 @@ class SolidTrack(AssembledTrack):
             (m, nd); u(x) = sum(weights * u[dofs]). A dof that an end condition holds has
             weight 0.
         """
-        cell, slices, t = self._locate(np.atleast_1d(np.asarray(x, dtype=float)))
+        cell, slices, t = self._chain.locate(np.atleast_1d(np.asarray(x, dtype=float)))
         rows = self.cell.centre_map
         weights = (1 - t)[:, None] * rows[slices] + t[:, None] * rows[slices + 1]
-        return self._placed(cell * self._step, weights)
+        return self._placed(cell * self._chain.step, weights)
 
     def local_compliance(self, x: Array) -> Array:
         """What the condensed cells leave out of the deflection under a load at X, (m,) [m/N].
 
         For a load spread over the section, which is what a point law on this rail applies.
         """
-        _, slices, t = self._locate(np.atleast_1d(np.asarray(x, dtype=float)))
+        _, slices, t = self._chain.locate(np.atleast_1d(np.asarray(x, dtype=float)))
         own, following = self.cell.centre_compliance
         # the load is shared by the planes on both sides, and so is the deflection
         return np.asarray(
@@ -191,7 +188,7 @@ class SolidTrack(AssembledTrack):
         """
         pair, _, planes = self._planes(x, half_length)
         dofs, held = self._pair_dofs(pair)
-        middle = slice(self._step, self._step + self.recipe.interface_modes)
+        middle = slice(self._chain.step, self._chain.step + self.recipe.interface_modes)
         mesh, _, _ = section_of(self.recipe)
         k = len(mesh.nodes)
         return SectionResponse(
@@ -227,18 +224,6 @@ class SolidTrack(AssembledTrack):
         """Slices after which the mean residual flexibility repeats; None where no mean is taken."""
         return self.recipe.n_slices if self.mean_phase else None
 
-    @property
-    def _step(self) -> int:
-        """Bare dofs of one plane and one cell's internal modes."""
-        return self.recipe.interface_modes + self.recipe.internal_modes
-
-    def _locate(self, x: Array) -> tuple[IntArray, IntArray, Array]:
-        """Cell, slice in it and fraction of the slice of each X."""
-        ns = self.recipe.n_slices
-        scaled = x / self.thickness
-        index = np.clip(np.floor(scaled).astype(np.int64), 0, self.n_cells * ns - 1)
-        return index // ns, index % ns, scaled - index
-
     def _placed(self, first: IntArray, weights: Array) -> tuple[IntArray, Array]:
         """Weights on the bare dofs from `first` on, as final dofs; held ones get weight 0."""
         dofs = self._dof_of_bare[first[:, None] + np.arange(weights.shape[1])]
@@ -246,8 +231,8 @@ class SolidTrack(AssembledTrack):
         return np.where(held, 0, dofs), np.where(held, 0.0, weights)
 
     def _pair_dofs(self, pair: int) -> tuple[IntArray, NDArray[np.bool_]]:
-        first = pair * self._step
-        dofs = self._dof_of_bare[first : first + 2 * self._step + self.recipe.interface_modes]
+        first = pair * self._chain.step
+        dofs = self._dof_of_bare[first : first + 2 * self._chain.step + self.recipe.interface_modes]
         held = dofs < 0
         # a held dof has weight 0 everywhere; name a free neighbour in its place
         return np.where(held, dofs.max(), dofs), held
@@ -257,81 +242,28 @@ class SolidTrack(AssembledTrack):
         return cell_pair(self.cell)
 
     @cached_property
-    def _held(self) -> IntArray:
-        """Bare dofs that the end conditions hold.
-
-        Nothing else holds the rail along X, so ends that leave it free to slide are held
-        there by one axial coordinate.
-        """
-        m, last = self.recipe.interface_modes, self.n_cells * self._step
-        if self.track.ends == "clamped":
-            return np.r_[0:m, last : last + m]
-        if self.track.ends == "pinned":
-            return np.array([_AXIAL, _VERTICAL, last + _VERTICAL])
-        return np.array([_AXIAL])
+    def _chain(self) -> CellChain:
+        return CellChain(self.cell, self.n_cells, self.track.ends)
 
     @cached_property
     def _dof_of_bare(self) -> IntArray:
-        """Final dof of each bare dof, -1 where held."""
-        n = self.n_cells * self._step + self.recipe.interface_modes
-        final = np.full(n, -1, dtype=np.int64)
-        final[np.setdiff1d(np.arange(n), self._held)] = self._assembled.rail_dofs
+        """Final dof of each bare dof of the chain, -1 where held."""
+        final = np.full(self._chain.n_bare, -1, dtype=np.int64)
+        final[self._chain.free] = self._assembled.rail_dofs
         return final
 
     @cached_property
     def _assembled(self) -> SupportedRail:
-        cell, step, n_cells = self.cell, self._step, self.n_cells
-        nd, m = len(cell.stiffness), cell.recipe.interface_modes
-        n = n_cells * step + m
-        dofs = step * np.arange(n_cells)[:, None] + np.arange(nd)
-        free = np.setdiff1d(np.arange(n), self._held)
-
-        def chain(A: Array) -> sp.csr_array:
-            rows, columns = np.repeat(dofs, nd, axis=1).ravel(), np.tile(dofs, (1, nd)).ravel()
-            total = sp.csr_array((np.tile(A.ravel(), n_cells), (rows, columns)), shape=(n, n))
-            return total[free][:, free]
-
-        stiffness, damping = cell.stiffness, None
+        chain, stiffness, damping = self._chain, self.cell.stiffness, None
         if isinstance(self.track.support, WinklerFoundation):
-            # integral of f f^T dx, f = mean displacement of the foot, linear between planes
-            f, h = cell.foot_map, self.thickness
-            bed = (
-                h
-                / 6
-                * (2 * (f[:-1].T @ f[:-1] + f[1:].T @ f[1:]) + f[:-1].T @ f[1:] + f[1:].T @ f[:-1])
-            )
             k, c = self.track.support.values("Z")
-            stiffness, damping = stiffness + k * bed, chain(c * bed)
-        bare = np.arange(n)
-        keys = cell.recipe.length * (bare // step + 0.5 * (bare % step >= m))
-        place = np.full(n, -1, dtype=np.int64)
-        place[free] = np.arange(len(free))
+            bed = chain.bed()
+            stiffness, damping = stiffness + k * bed, chain.matrix(c * bed)
         return add_supports(
-            chain(cell.mass),
+            chain.matrix(self.cell.mass),
             damping,
-            chain(stiffness),
-            keys[free],
+            chain.matrix(stiffness),
+            chain.keys,
             self.track,
-            [self._pad_row(first, last, place) for first, last in self.track.pad_footprints],
+            [chain.pad_row(first, last) for first, last in self.track.pad_footprints],
         )
-
-    def _pad_row(self, first: float, last: float, place: IntArray) -> PadRow:
-        """Average foot displacement over a footprint, linear between the planes."""
-        h = self.thickness
-        inner = h * np.arange(np.ceil(first / h), np.floor(last / h) + 1)
-        knots = np.unique(np.clip(np.r_[first, inner, last], first, last))
-        # trapezoids between knots are exact for a piecewise linear function
-        weight = np.full(len(knots), 1.0 if len(knots) == 1 else 0.0)
-        share = 0.5 * np.diff(knots) / (last - first if last > first else 1.0)
-        weight[:-1] += share
-        weight[1:] += share
-        cells, index, t = self._locate(knots)
-        row = np.zeros(len(place))
-        for c, i, s, w in zip(cells, index, t, weight, strict=True):
-            start = c * self._step
-            f = (1 - s) * self.cell.foot_map[i] + s * self.cell.foot_map[i + 1]
-            row[start : start + len(f)] += w * f
-        # equal pads get equal rows bit for bit, so that products with them can share values
-        row = np.round(row, 12)
-        used = np.flatnonzero((row != 0.0) & (place >= 0))
-        return PadRow(place[used], row[used])

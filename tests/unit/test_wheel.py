@@ -10,7 +10,8 @@ from scipy.sparse.linalg import splu
 from contactstudy.exceptions import InputError
 from contactstudy.profiles import rail_profile, wheel_profile
 from contactstudy.solids.hexahedron import hex_stiffness
-from contactstudy.solids.wheel import WheelRecipe, elastic_wheel, rigid_wheel, ring_slice
+from contactstudy.solids.ring import ring_slice
+from contactstudy.solids.wheel import WheelRecipe, elastic_wheel, rigid_wheel
 from contactstudy.solids.wheel_section import WheelDimensions, wheel_section_mesh
 
 COARSE = WheelRecipe(size=0.008, contact_half_length=0.016, contact_half_width=0.016)
