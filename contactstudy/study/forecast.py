@@ -16,7 +16,7 @@ from contactstudy.study.roughness import describe
 from contactstudy.study.runs import PointRun
 from contactstudy.study.schema import Study
 from contactstudy.track.beam import BeamTrack
-from contactstudy.track.model import DiscreteSupports, Track
+from contactstudy.track.model import DiscreteSupports, Slab, Track
 
 # Rough costs on a core of 2020 or later, measured with the shipped studies; for a forecast only.
 START = 4.0  # s, a process with its imports
@@ -58,10 +58,14 @@ def solid_dofs(study: Study, track: Track) -> int:
     """Number of dofs of the chain of cells on its supports, without condensing a cell."""
     solid = study.solid
     cells = round(track.length / solid.cell_length)
-    held = {"clamped": 2 * solid.interface_modes, "pinned": 4, "free": 0}[track.ends]
-    sleepers = track.n_bays + 1 if isinstance(track.support, DiscreteSupports) else 0
+    # ends that let the rail slide along X are held there by one dof
+    held = {"clamped": 2 * solid.interface_modes, "pinned": 3, "free": 1}[track.ends]
+    below = 0
+    if isinstance(track.support, DiscreteSupports):
+        # a half sleeper moves vertically; a node of the slab turns as well
+        below = (2 if isinstance(track.support.layer, Slab) else 1) * (track.n_bays + 1)
     planes = (cells + 1) * solid.interface_modes
-    return planes + cells * solid.internal_modes + sleepers - held
+    return planes + cells * solid.internal_modes + below - held
 
 
 def print_check(study: Study, console: Console) -> None:
