@@ -158,7 +158,9 @@ def _runs(data: Any) -> tuple[dict[str, Any], list[str]]:
         elif name == IRREGULARITY_GROUP:
             problems.append(f"{path}: a run cannot be called '{name}', which names its own group")
         if not isinstance(table, Mapping) or "solver" not in table:
-            problems.append(f'{path}.solver: is missing; must be "point" or "surface"')
+            hint = did_you_mean(name, [other for other in data if other != name])
+            misspelt = f"; or is the run's name misspelt{hint}" if hint else ""
+            problems.append(f'{path}.solver: is missing; must be "point" or "surface"{misspelt}')
             continue
         solver = table["solver"]
         if not isinstance(solver, str) or solver not in SOLVERS:

@@ -199,6 +199,13 @@ def test_a_companion_shares_track_and_journey_of_its_study(tmp_path):
         load_companions(load_study("point_vs_surface", [f'companions=["{own}"]']))
 
 
+def test_a_misspelt_run_in_an_override_names_the_run_that_is_meant():
+    with pytest.raises(
+        InputError, match=r"runs\.pont\.solver: is missing.*name misspelt.*did you mean 'point'"
+    ):
+        load_study("point_vs_surface", ["runs.pont.k_r=1e9"])
+
+
 def test_misspelt_study_names_get_close_matches(tmp_path):
     with pytest.raises(InputError, match="did you mean 'smooth_rail'"):
         find_study("smoth_rail")
