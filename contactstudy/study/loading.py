@@ -15,9 +15,11 @@ from contactstudy.exceptions import InputError
 from contactstudy.resources import resource
 from contactstudy.study import checks
 from contactstudy.study.messages import complaint, did_you_mean, from_validation, unknown
+from contactstudy.study.overrides import override
 from contactstudy.study.results import IRREGULARITY_GROUP
 from contactstudy.study.schema import SECTIONS, SOLVERS, Study
 from contactstudy.study.section import Section
+from contactstudy.study.tables import SolidTable, TrackTable
 
 _TOP_LEVEL = ("title", "description", "companions", *SECTIONS, "runs", "compare")
 _RUN_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
@@ -79,9 +81,7 @@ def load_study(
     except OSError as error:
         raise InputError(f"{path}: cannot be read ({error.strerror})") from error
     _resolve_paths(data, path.parent)
-    problems = []
-    for text in overrides:
-        problems += _override(data, text)
+    problems = override(data, overrides)
     return parse_study(path.stem, data, problems, main)
 
 
@@ -125,6 +125,8 @@ def parse_study(
         found += wrong
         if section is not None:
             sections[key] = section
+    if {"track", "solid"} <= sections.keys() and "cell_length" not in data.get("solid", {}):
+        sections["solid"] = _fitting_cells(sections["solid"], sections["track"])
     runs, wrong = _runs(data.get("runs", {}))
     found += wrong
     found += checks.combined(sections, runs) + checks.runs(runs)
@@ -135,6 +137,15 @@ def parse_study(
     if found:
         raise InputError(found)
     return Study(name=name, **texts, **sections, runs=runs, reference=reference)
+
+
+def _fitting_cells(solid: SolidTable, track: TrackTable) -> SolidTable:
+    """The default cell length, or the nearest to it that divides the support spacing."""
+    length = track.spacing if track.support == "discrete" else track.length
+    cells = max(1, round(length / solid.cell_length))
+    if abs(length / cells - solid.cell_length) < 1e-9 * length:
+        return solid
+    return solid.model_copy(update={"cell_length": length / cells})
 
 
 def _section(model: type[Section], data: Any, path: str) -> tuple[Any, list[str]]:
@@ -215,26 +226,3 @@ def _resolve_paths(data: dict[str, Any], base: Path) -> None:
         for key in _PATHS:
             if isinstance(table.get(key), str) and table[key]:
                 table[key] = str(base / table[key])
-
-
-def _override(data: dict[str, Any], text: str) -> list[str]:
-    key, equals, value = text.partition("=")
-    parts = key.strip().split(".")
-    if not equals or not all(parts):
-        return [f"--set {text}: must be KEY=VALUE with a dotted key, e.g. journey.speed='250 km/h'"]
-    table = data
-    for part in parts[:-1]:
-        table = table.setdefault(part, {})
-        if not isinstance(table, dict):
-            return [f"--set {text}: {key.strip()} goes through a value that is no table"]
-    table[parts[-1]] = _value(value.strip())
-    return []
-
-
-def _value(text: str) -> Any:
-    """Read `text` as a TOML value, else take it as the text itself."""
-    try:
-        parsed = tomllib.loads(f"value = {text}")
-    except tomllib.TOMLDecodeError:
-        return text
-    return parsed["value"] if list(parsed) == ["value"] else text

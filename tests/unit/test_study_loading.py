@@ -260,3 +260,29 @@ def test_shipped_files_are_found_by_path_too():
 def test_a_run_cannot_take_the_name_of_another_group():
     with pytest.raises(InputError, match=r"runs\.irregularity: .*its own group"):
         parse_study("s", {"runs": {"irregularity": {"solver": "point"}}})
+
+
+def test_an_override_leaves_out_what_no_longer_applies():
+    study = load_study("point_vs_surface", ["irregularity.spectrum=smooth", "runs.point.law=hertz"])
+    assert study.irregularity.spectrum == "smooth" and study.runs["point"].law == "hertz"
+    with pytest.raises(InputError, match=r"irregularity\.seed: applies only with"):
+        load_study("point_vs_surface", ["irregularity.spectrum=smooth", "irregularity.seed=2"])
+
+
+@pytest.mark.parametrize(
+    ("track", "length"),
+    [
+        ({"spacing": 0.65, "length": 39.0}, 0.65 / 6),
+        ({}, 0.1),
+        ({"support": "winkler", "length": 12.05, "foundation_stiffness": 1e8}, 12.05 / 120),
+    ],
+)
+def test_cells_fit_the_supports_unless_their_length_is_given(track, length):
+    runs = {"s": {"solver": "surface"}}
+    journey = {"from": 3.0, "to": 9.0}
+    study = parse_study("s", {"track": track, "journey": journey, "runs": runs})
+    assert study.solid.cell_length == pytest.approx(length, rel=1e-12)
+    if track:
+        with pytest.raises(InputError, match=r"solid\.cell_length"):
+            solid = {"cell_length": 0.1}
+            parse_study("s", {"track": track, "journey": journey, "runs": runs, "solid": solid})

@@ -1,0 +1,78 @@
+"""Keys of a study that the command line overrides."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Iterable
+from typing import Any
+
+from contactstudy.study.schema import SECTIONS, SOLVERS
+from contactstudy.study.section import Section
+
+
+def override(data: dict[str, Any], texts: Iterable[str]) -> list[str]:
+    """Set dotted keys of a study file's content, in place.
+
+    A key of the file that means nothing beside an overridden one (the seed, once the spectrum
+    is "smooth") is left out; one that was itself overridden stays, to be complained about.
+
+    Parameters
+    ----------
+    data : dict
+        Content as TOML gives it.
+    texts : iterable of str
+        ``key=value``; values as in TOML, quotes around text may be left out.
+
+    Returns
+    -------
+    list of str
+        Complaints.
+    """
+    problems, given = [], set()
+    for text in texts:
+        problems += _override(data, text)
+        given.add(text.partition("=")[0].strip())
+    for name, section in SECTIONS.items():
+        _leave_out(data.get(name), section, name, given)
+    runs = data.get("runs")
+    for name, run in runs.items() if isinstance(runs, dict) else ():
+        if isinstance(run, dict) and run.get("solver") in SOLVERS:
+            _leave_out(run, SOLVERS[run["solver"]], f"runs.{name}", given)
+    return problems
+
+
+def _leave_out(table: Any, model: type[Section], path: str, given: set[str]) -> None:
+    """Take keys out of a table whose overridden deciding key does not let them apply."""
+    if not isinstance(table, dict):
+        return
+    for field, (decider, values) in model.applies.items():
+        key = model.model_fields[field].alias or field
+        if (
+            f"{path}.{decider}" in given
+            and f"{path}.{key}" not in given
+            and table.get(decider) not in values
+        ):
+            table.pop(key, None)
+
+
+def _override(data: dict[str, Any], text: str) -> list[str]:
+    key, equals, value = text.partition("=")
+    parts = key.strip().split(".")
+    if not equals or not all(parts):
+        return [f"--set {text}: must be KEY=VALUE with a dotted key, e.g. journey.speed='250 km/h'"]
+    table = data
+    for part in parts[:-1]:
+        table = table.setdefault(part, {})
+        if not isinstance(table, dict):
+            return [f"--set {text}: {key.strip()} goes through a value that is no table"]
+    table[parts[-1]] = _value(value.strip())
+    return []
+
+
+def _value(text: str) -> Any:
+    """Read `text` as a TOML value, else take it as the text itself."""
+    try:
+        parsed = tomllib.loads(f"value = {text}")
+    except tomllib.TOMLDecodeError:
+        return text
+    return parsed["value"] if list(parsed) == ["value"] else text
