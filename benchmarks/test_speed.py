@@ -30,7 +30,7 @@ from contactstudy.track.solid import SolidTrack, solid_rail
 from contactstudy.vehicle import wheel_column
 
 RECIPE = CellRecipe()
-JOURNEY = Journey(start=6.0, end=9.0)
+JOURNEY = Journey(start=6.0, end=15.0)
 
 
 @cache
@@ -64,11 +64,23 @@ def baseline(matrix) -> float:
     return float(np.median(times))
 
 
-def report(benchmark, dataset, one_solution):
-    step = dataset.attrs["seconds_stepping"] / dataset.attrs["steps"]
+def report(benchmark, run, one_solution):
+    """Median over the rounds of the time of a step, as the dataset tells it."""
+    run()  # compiled kernels are loaded
+    steps = []
+
+    def timed():
+        attrs = run().attrs
+        steps.append(attrs["seconds_stepping"] / attrs["steps"])
+
+    benchmark.pedantic(timed, rounds=5)
+    step = float(np.median(steps))
     benchmark.extra_info["ms_per_step"] = round(1e3 * step, 4)
     benchmark.extra_info["LAPACK_solutions_per_step"] = round(step / one_solution, 2)
-    print(f"\n{1e3 * step:.3f} ms a step, {step / one_solution:.1f} LAPACK solutions of the system")
+    print(
+        f"\n{1e3 * step:.3f} ms a step (best {1e3 * min(steps):.3f}),"
+        f" {step / one_solution:.1f} LAPACK solutions of the system"
+    )
 
 
 @pytest.mark.parametrize("law", [LinearSpring(1e11), HertzSpring(9.25e10)], ids=["k_r", "hertz"])
@@ -79,16 +91,14 @@ def test_point_step(benchmark, law, local):
             Track(), wheel_column(), profile(), JOURNEY, law=law, local_compliance=local
         )
 
-    run()  # compiled kernels are loaded
-    report(benchmark, benchmark(run), baseline(BeamTrack(Track()).stiffness))
+    report(benchmark, run, baseline(BeamTrack(Track()).stiffness))
 
 
 def test_surface_step(benchmark):
     def run():
         return surface_contact(solid_track(), wheel(), wheel_column(), profile(), JOURNEY)
 
-    run()
-    report(benchmark, benchmark(run), baseline(solid_track().stiffness))
+    report(benchmark, run, baseline(solid_track().stiffness))
 
 
 def test_condensation(benchmark):
