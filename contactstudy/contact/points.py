@@ -31,7 +31,10 @@ class ContactPoints:
     Attributes
     ----------
     x, y : ndarray (nx,), (ny,)
-        Grid lines of the points in m.
+        Grid lines of the points in m; y in the rail's own axes.
+    arc : ndarray (ny,)
+        Arc length of the lines y along the running surface from its crown in m, positive with
+        y: the coordinate in which the rail's surface nodes are interpolated.
     wheel_x, wheel_y : ndarray (mx,), (my,)
         Grid lines of the wheel's tread nodes in m.
     gap : ndarray (nx*ny,)
@@ -52,6 +55,7 @@ class ContactPoints:
 
     x: Array
     y: Array
+    arc: Array
     wheel_x: Array
     wheel_y: Array
     gap: Array
@@ -184,6 +188,7 @@ def contact_points(
     return ContactPoints(
         x,
         y,
+        rail.running_arc(y),
         np.asarray(wheel_x, dtype=float),
         np.asarray(wheel_y, dtype=float),
         gap.ravel(),

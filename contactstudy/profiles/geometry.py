@@ -39,6 +39,11 @@ class Line:
             return z0 + (y - y0) * slope
         return np.full_like(y, slope if derivative == 1 else 0.0)
 
+    def length_to(self, y: Vector) -> Vector:
+        """Length of the piece from its start to lateral position y [m]."""
+        (y0, z0), (y1, z1) = self.start, self.end
+        return (y - y0) * (np.hypot(y1 - y0, z1 - z0) / (y1 - y0))
+
     def points(self, chord_error: float) -> Vector:
         """Both ends, shape (2, 2) [m]; a line has no chord error."""
         return np.array([self.start, self.end])
@@ -85,6 +90,13 @@ class Arc:
             root0 = abs(z0 - self.centre[1])
             return z0 + sign * (b0 - b) * (b0 + b) / (root + root0)
         return -sign * b / root if derivative == 1 else -sign * self.radius**2 / root**3
+
+    def length_to(self, y: Vector) -> Vector:
+        """Length of an upper arc from its start to lateral position y [m]."""
+        b, b0 = (np.asarray(v) - self.centre[0] for v in (y, self.start[0]))
+        # the angle from the vertical has the sine b/R
+        R = abs(self.radius)
+        return R * (np.arcsin(np.clip(b / R, -1.0, 1.0)) - np.arcsin(b0 / R))
 
     def points(self, chord_error: float) -> Vector:
         """Points (n, 2) [m] from start to end whose chords stay within ``chord_error`` [m]."""

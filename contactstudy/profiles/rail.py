@@ -138,6 +138,20 @@ class RailProfile:
         """Second derivative d2z/dy2 of the running surface at y [1/m]."""
         return self._surface(y, 2)
 
+    def running_arc(self, y: ArrayLike) -> NDArray[np.float64]:
+        """Arc length along the running surface from the crown to y, with the sign of y [m].
+
+        NaN beyond the lower end of the side face.
+        """
+        b = np.asarray(y, dtype=float)
+        side, begin = np.abs(b), 0.0
+        arc = np.full(b.shape, np.nan)
+        for piece in self._top:
+            here = (side >= piece.start[0]) & (side <= piece.end[0])
+            arc[here] = begin + piece.length_to(side[here])
+            begin += float(piece.length_to(np.array([piece.end[0]]))[0])
+        return arc * np.where(b < 0.0, -1.0, 1.0)
+
     def half_outline(self, chord_error: float = 1e-7) -> NDArray[np.float64]:
         """Right half from the crown to the foot's centre, shape (n, 2), clockwise [m]."""
         rows = [p.points(chord_error)[:-1] for p in self.pieces]
@@ -156,10 +170,15 @@ class RailProfile:
     def _piece(self, part: str) -> Piece:
         return next(p for p in self.pieces if p.part == part)
 
+    @property
+    def _top(self) -> tuple[Piece, ...]:
+        """Pieces of the right half of the running surface, from the crown."""
+        return self.pieces[: 1 + self.pieces.index(self._piece("side face"))]
+
     def _surface(self, y: ArrayLike, derivative: int) -> NDArray[np.float64]:
         b = np.asarray(y, dtype=float)
         side = np.abs(b)
-        top = self.pieces[: 1 + self.pieces.index(self._piece("side face"))]
+        top = self._top
         ends = np.array([p.end[0] for p in top])
         which = np.searchsorted(ends, side, side="left")
         z = np.full(b.shape, np.nan)

@@ -111,3 +111,13 @@ def test_straight_treads(name, conicity):
     np.testing.assert_allclose(wheel.height(y), conicity * y)
     np.testing.assert_array_equal(wheel.slope(y), conicity)
     np.testing.assert_array_equal(wheel.curvature(y), 0.0)
+
+
+def test_arc_length_of_the_running_surface_is_that_of_fine_chords() -> None:
+    rail = rail_profile()
+    y = np.linspace(0.0, 0.036, 100_001)
+    chords = np.hypot(np.diff(y), np.diff(rail.running_surface(y)))
+    arc = rail.running_arc(y)
+    assert np.allclose(arc[1:], np.cumsum(chords), rtol=0, atol=1e-9)
+    assert np.array_equal(rail.running_arc(-y), -arc)
+    assert np.isnan(rail.running_arc(0.040))
