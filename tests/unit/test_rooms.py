@@ -22,6 +22,7 @@ ORDER = (
     ("errors", "convergence", "energy", "passing"),
     ("sweep",),
     ("study",),
+    ("verification",),
     ("figures",),
     ("report",),
     ("cli", "__main__"),

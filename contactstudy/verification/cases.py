@@ -1,0 +1,75 @@
+"""The named cases, in the order of the verification document."""
+
+from __future__ import annotations
+
+import importlib
+import shutil
+from collections.abc import Callable
+from dataclasses import dataclass
+from importlib.util import find_spec
+
+from contactstudy.exceptions import InputError
+from contactstudy.verification.check import CaseResult
+
+
+@dataclass(frozen=True)
+class Case:
+    """Where a named case is found, and what it needs.
+
+    Attributes
+    ----------
+    name : str
+    function : str
+        "module:function" below ``contactstudy.verification``; takes nothing, returns a
+        `CaseResult` of the same name. Imported when called, so that listing the cases is quick.
+    slow : bool
+        Takes more than about 20 s; left out by ``--quick`` and by the quick tests.
+    needs : tuple of str
+        "program:ccx" or "package:tamaas": what must be installed.
+    """
+
+    name: str
+    function: str
+    slow: bool = False
+    needs: tuple[str, ...] = ()
+
+    def load(self) -> Callable[[], CaseResult]:
+        """The function itself."""
+        module, _, function = self.function.partition(":")
+        found: Callable[[], CaseResult] = getattr(
+            importlib.import_module(f"contactstudy.verification.{module}"), function
+        )
+        return found
+
+    def missing(self) -> tuple[str, ...]:
+        """What is needed and not installed, e.g. "the program ccx"."""
+        absent = []
+        for need in self.needs:
+            kind, _, name = need.partition(":")
+            present = shutil.which(name) if kind == "program" else find_spec(name)
+            if present is None:
+                absent.append(f"the {kind} {name}")
+        return tuple(absent)
+
+
+#: All cases. To add one: a function in a module of this package, and a line here.
+CASES: tuple[Case, ...] = ()
+
+
+def select(names: tuple[str, ...] = ()) -> tuple[Case, ...]:
+    """Cases by name in the order of `CASES`; all without names.
+
+    Raises
+    ------
+    InputError
+        For each name that is not there, with those that are.
+    """
+    known = {case.name: case for case in CASES}
+    problems = [
+        f"case {name!r}: unknown; the cases are {', '.join(known) or 'none'}"
+        for name in names
+        if name not in known
+    ]
+    if problems:
+        raise InputError(problems)
+    return tuple(case for case in CASES if not names or case.name in names)

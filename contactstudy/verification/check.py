@@ -1,0 +1,199 @@
+"""What a verification case hands back: checks, tables and curves, as plain data.
+
+Nothing here draws: `contactstudy.figures.verification` does, from the curves below.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+import numpy.typing as npt
+
+Cell = str | int | float | None
+
+
+@dataclass(frozen=True)
+class Check:
+    """A computed value beside its reference.
+
+    Attributes
+    ----------
+    quantity : str
+        What is compared and where, e.g. "peak pressure at 80 kN".
+    computed, reference : float
+        In `unit`.
+    unit : str
+        "" for a pure number.
+    source : str
+        Where the reference is from: closed form, publication, program and version.
+    band : float or None
+        Relative band that the difference must keep; None: reported, not judged.
+    sense : {"equal", "at_most", "at_least"}
+        With "at_most" and "at_least" the reference is a limit, exceeded by `band` at most.
+    scale : float or None
+        What the difference is divided by, in `unit`; None: the reference. Give it where the
+        reference may be zero, as a position has the patch's semi-axis.
+    """
+
+    quantity: str
+    computed: float
+    reference: float
+    unit: str
+    source: str
+    band: float | None
+    sense: Literal["equal", "at_most", "at_least"] = "equal"
+    scale: float | None = None
+
+    @property
+    def difference(self) -> float:
+        """Computed less reference, in `unit`."""
+        return self.computed - self.reference
+
+    @property
+    def error(self) -> float:
+        """Relative difference, signed; nan when nothing can be divided by."""
+        scale = abs(self.reference if self.scale is None else self.scale)
+        return self.difference / scale if scale > 0.0 else math.nan
+
+    @property
+    def passed(self) -> bool | None:
+        """Whether the band is kept; None when there is none. What is not finite never passes."""
+        if self.band is None:
+            return None
+        if self.difference == 0.0:
+            return True
+        error = self.error
+        if self.sense == "at_most":
+            return error <= self.band
+        if self.sense == "at_least":
+            return error >= -self.band
+        return abs(error) <= self.band
+
+
+@dataclass(frozen=True)
+class Table:
+    """Rows of texts and numbers; numbers are shown with four digits.
+
+    Attributes
+    ----------
+    caption : str
+    header : tuple of str
+        Column headings with units, e.g. "load (kN)".
+    rows : tuple of tuple
+        As many cells as the header; None is shown as a dash.
+    """
+
+    caption: str
+    header: tuple[str, ...]
+    rows: tuple[tuple[Cell, ...], ...]
+
+    def __post_init__(self) -> None:
+        wrong = [i for i, row in enumerate(self.rows) if len(row) != len(self.header)]
+        if wrong:
+            raise ValueError(f"{self.caption}: rows {wrong} do not have {len(self.header)} cells")
+
+
+@dataclass(frozen=True)
+class Curve:
+    """One labelled line or set of points.
+
+    Attributes
+    ----------
+    label : str
+    x, y : tuple of float
+        Equally long; nan leaves a gap.
+    style : {"line", "points", "both", "reference"}
+        "reference" is the black line that the others are compared with.
+    """
+
+    label: str
+    x: tuple[float, ...]
+    y: tuple[float, ...]
+    style: Literal["line", "points", "both", "reference"] = "line"
+
+    def __post_init__(self) -> None:
+        if len(self.x) != len(self.y):
+            raise ValueError(f"{self.label}: {len(self.x)} abscissae, {len(self.y)} ordinates")
+
+
+@dataclass(frozen=True)
+class Plot:
+    """One pair of axes with curves.
+
+    Attributes
+    ----------
+    caption : str
+        What is drawn, and in numbers what is seen.
+    x_label, y_label : str
+        With units.
+    curves : tuple of Curve
+    x_scale, y_scale : {"linear", "log"}
+    """
+
+    caption: str
+    x_label: str
+    y_label: str
+    curves: tuple[Curve, ...]
+    x_scale: Literal["linear", "log"] = "linear"
+    y_scale: Literal["linear", "log"] = "linear"
+
+
+@dataclass(frozen=True)
+class CaseResult:
+    """What one named case found.
+
+    Attributes
+    ----------
+    name : str
+        As registered in `contactstudy.verification.cases`.
+    title : str
+    method : str
+        What is compared with what, and how; paragraphs are parted by an empty line.
+    checks : tuple of Check
+    tables : tuple of Table
+    figures : tuple of Plot
+    """
+
+    name: str
+    title: str
+    method: str
+    checks: tuple[Check, ...]
+    tables: tuple[Table, ...] = ()
+    figures: tuple[Plot, ...] = ()
+
+    @property
+    def failed(self) -> tuple[Check, ...]:
+        """Checks that leave their band."""
+        return tuple(check for check in self.checks if check.passed is False)
+
+
+def curve(
+    label: str,
+    x: npt.ArrayLike,
+    y: npt.ArrayLike,
+    style: Literal["line", "points", "both", "reference"] = "line",
+) -> Curve:
+    """`Curve` from arrays (n,)."""
+    return Curve(label, _floats(x), _floats(y), style)
+
+
+def _floats(values: npt.ArrayLike) -> tuple[float, ...]:
+    return tuple(np.asarray(values, dtype=float).ravel().tolist())
+
+
+def describe(checks: Sequence[Check]) -> str:
+    """Lines with computed, reference, difference and band, for a terminal."""
+    lines = []
+    for c in checks:
+        verdict = {True: "ok", False: "FAILS", None: "reported"}[c.passed]
+        limit = {"equal": "", "at_most": "at most ", "at_least": "at least "}[c.sense]
+        band = "" if c.band is None else f", band {100 * c.band:g} %"
+        lines.append(
+            f"{c.quantity}: {c.computed:.5g} {c.unit} (reference {limit}{c.reference:.5g}, "
+            f"{c.source}): {100 * c.error:+.3g} %{band}: {verdict}"
+        )
+    return "\n".join(lines)
