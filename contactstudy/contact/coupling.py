@@ -215,7 +215,7 @@ class SurfaceCoupling:
     def _candidate_points(self, approach: float) -> NDArray[np.bool_]:
         listed = self._candidates.quads(approach)
         if listed is not self._listed:
-            self._allowed = np.isin(self.points.facet, listed)
+            self._allowed = self.points.listed(listed)
             self._listed = listed
         return self._allowed
 

@@ -1,8 +1,8 @@
-"""Contact points: Gauss points of the wheel's facets, and the gap between smooth surfaces.
+"""Contact points: where the pressure is taken on the wheel, and the gap of smooth surfaces.
 
 Coordinates: x along the rail relative to the wheel's lowest point, y lateral in the rail's
-axes, z up. Points lie on the wheel's tread and travel with it. The gap is never taken from
-facets: it is the distance between the smooth profiles in double precision.
+axes, z up. Points are Gauss points or nodes of the wheel's tread facets and travel with it. The
+gap is never taken from facets: it is the distance between the smooth profiles in double precision.
 """
 
 from dataclasses import dataclass
@@ -10,16 +10,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from contactstudy.contact.interpolation import Rows, grid_rows, linear_rows
+from contactstudy.contact.interpolation import Rows, grid_rows
+from contactstudy.contact.quadrature import Quadrature, grid_facets, point_line
 from contactstudy.exceptions import InputError
 from contactstudy.profiles.rail import RailProfile
 from contactstudy.profiles.wheel import WheelProfile
 
 Array = NDArray[np.float64]
 IntArray = NDArray[np.int64]
-
-# two-point Gauss rule on [0, 1]
-_GAUSS = 0.5 + np.array([-0.5, 0.5]) / np.sqrt(3.0)
 
 
 @dataclass(frozen=True)
@@ -45,10 +43,11 @@ class ContactPoints:
     area : ndarray (nx*ny,)
         Area on the rail's surface that a point stands for, in m^2; of both halves where the
         model is symmetric.
-    facet : ndarray of int (nx*ny,)
-        Facet (quadrilateral) of the wheel's tread grid, ``i*(my-1) + j``.
+    facet : ndarray of int (nx*ny, k)
+        Facets (quadrilaterals) of the wheel's tread grid, ``i*(my-1) + j``, that a point belongs
+        to: the one around a Gauss point, the four around a node (at an edge named twice).
     wheel_rows : Rows
-        Interpolation from the wheel's tread nodes, (nx*ny, 4).
+        Interpolation from the wheel's tread nodes, (nx*ny, 4) or, at nodes, (nx*ny, 1).
     symmetric : bool
         Only y >= 0 is modelled.
     """
@@ -80,7 +79,7 @@ class ContactPoints:
 
         The lumped L2 projection ``p_a = sum_i N_a(i) lam_i / sum_i N_a(i) A_i``. With a stiff
         penalty four points a facet follow what the nodes cannot, and their own pressures
-        scatter about this one.
+        scatter about this one. Points at the nodes have ``lam_a / A_a``.
 
         Parameters
         ----------
@@ -102,11 +101,9 @@ class ContactPoints:
         """Area of the points in contact in m^2 (of both halves of a symmetric model)."""
         return float(self.area[active].sum())
 
-
-def _gauss_lines(lines: Array) -> tuple[Array, Array]:
-    steps = np.diff(lines)
-    points = lines[:-1, None] + steps[:, None] * _GAUSS
-    return points.ravel(), np.repeat(0.5 * steps, 2)
+    def listed(self, facets: IntArray) -> NDArray[np.bool_]:
+        """Points (nx*ny,) that have one of these facets."""
+        return np.asarray(np.isin(self.facet, facets).any(axis=1))
 
 
 def rolling_drop(x: Array, height: Array, radius: float) -> Array:
@@ -131,8 +128,9 @@ def contact_points(
     wheel: WheelProfile,
     symmetric: bool = True,
     lateral_shift: float = 0.0,
+    quadrature: Quadrature = "gauss",
 ) -> ContactPoints:
-    """Gauss points of the wheel's tread facets over the rail.
+    """Contact points of the wheel's tread facets over the rail.
 
     Parameters
     ----------
@@ -148,6 +146,8 @@ def contact_points(
         Only y >= 0 is modelled; then ``wheel_y[0]`` must be 0.
     lateral_shift : float
         Position of the wheel's tape circle in m (0 if `symmetric`).
+    quadrature : {"gauss", "nodes"}
+        Gauss points of the facets, or the tread nodes with nodal areas.
 
     Returns
     -------
@@ -167,8 +167,9 @@ def contact_points(
         problems.append("contact grid: lines must increase")
     if problems:
         raise InputError(problems)
-    x, dx = _gauss_lines(np.asarray(wheel_x, dtype=float))
-    y, dy = _gauss_lines(np.asarray(wheel_y, dtype=float))
+    along = point_line(wheel_x, quadrature)
+    across = point_line(wheel_y, quadrature)
+    x, y = along.at, across.at
     top, slope = np.asarray(rail.running_surface(y)), np.asarray(rail.running_slope(y))
     if not np.all(np.isfinite(top)):
         raise InputError(
@@ -181,10 +182,8 @@ def contact_points(
     gap = (drop - top[None, :]) * normal[None, :]
     factor = 2.0 if symmetric else 1.0
     # dA = dx dy / n_z on the rail's surface
-    area = factor * dx[:, None] * (dy / normal)[None, :]
+    area = factor * along.weight[:, None] * (across.weight / normal)[None, :]
     my = len(wheel_y)
-    rows = grid_rows(linear_rows(wheel_x, x), linear_rows(wheel_y, y), my)
-    facet = (np.arange(len(x))[:, None] // 2) * (my - 1) + np.arange(len(y))[None, :] // 2
     return ContactPoints(
         x,
         y,
@@ -194,7 +193,7 @@ def contact_points(
         gap.ravel(),
         np.tile(normal, len(x)),
         area.ravel(),
-        facet.ravel().astype(np.int64),
-        rows,
+        grid_facets(along, across, my),
+        grid_rows(along.rows, across.rows, my),
         symmetric,
     )

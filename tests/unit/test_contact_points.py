@@ -111,3 +111,33 @@ def test_bad_geometry_is_refused() -> None:
         half_points(lateral_shift=1e-3)
     with pytest.raises(InputError, match="running surface"):
         half_points(wheel_y=np.array([0.0, 0.05]))
+
+
+def test_nodes_as_contact_points() -> None:
+    gauss, nodes = half_points(), half_points(quadrature="nodes")
+    np.testing.assert_array_equal(nodes.x, nodes.wheel_x)
+    np.testing.assert_array_equal(nodes.y, nodes.wheel_y)
+    # unit rows
+    n = len(nodes.gap)
+    np.testing.assert_array_equal(nodes.wheel_rows.matrix(n), np.eye(n))
+    # trapezoidal areas: second order, and the running surface is nearly flat
+    assert nodes.area.sum() == pytest.approx(gauss.area.sum(), rel=1e-4)
+    corner = nodes.area[0]
+    assert corner == pytest.approx(2 * 1e-3 * 1e-3) and nodes.area[len(nodes.y)] / corner == 2
+    np.testing.assert_allclose(nodes.nodal_pressure(7.0 * nodes.area), 7.0)
+
+
+@pytest.mark.parametrize("quadrature", ["gauss", "nodes"])
+def test_points_know_their_facets(quadrature: str) -> None:
+    points = half_points(quadrature=quadrature)
+    my = len(points.wheel_y)
+    for facet in range((len(points.wheel_x) - 1) * (my - 1)):
+        i, j = divmod(facet, my - 1)
+        x, y = points.x_of_points, points.y_of_points
+        inside = (
+            (x >= points.wheel_x[i] - 1e-12)
+            & (x <= points.wheel_x[i + 1] + 1e-12)
+            & (y >= points.wheel_y[j] - 1e-12)
+            & (y <= points.wheel_y[j + 1] + 1e-12)
+        )
+        np.testing.assert_array_equal(points.listed(np.array([facet])), inside)
