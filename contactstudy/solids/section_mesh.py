@@ -81,6 +81,7 @@ def rail_section_mesh(
     contact_half_width: float = 0.010,
     coarse: float = 0.009,
     growth: float = 1.5,
+    contact_centre: float = 0.0,
 ) -> SectionMesh:
     """Mesh a rail section, fine at the running surface.
 
@@ -93,11 +94,14 @@ def rail_section_mesh(
     symmetric : bool
         Mesh the half y >= 0 only.
     contact_half_width : float
-        Lateral extent of the fine running surface on each side, in m.
+        Lateral extent of the fine running surface on each side of its centre, as arc length
+        in m.
     coarse : float
         Largest element size away from the running surface, in m.
     growth : float
         Ratio of neighbouring element sizes away from the running surface.
+    contact_centre : float
+        Centre of the fine running surface, arc length from the crown in m; 0 if symmetric.
 
     Returns
     -------
@@ -115,30 +119,89 @@ def rail_section_mesh(
         problems.append(
             f"contact_half_width = {contact_half_width} m: must be above 0 and at most 0.025 m"
         )
+    if symmetric and contact_centre != 0.0:
+        problems.append(f"contact_centre = {contact_centre} m: must be 0 m in a half section")
     if not size <= coarse <= 0.02:
         problems.append(f"coarse = {coarse} m: must be at least the mesh size, at most 0.02 m")
     if not 1.0 < growth <= 3.0:
         problems.append(f"growth = {growth}: must be above 1 and at most 3")
     if problems:
         raise InputError(problems)
+    outline = _Outline.of(profile)
+    low, high = contact_centre - contact_half_width, contact_centre + contact_half_width
+    reach = outline.top_length - size
+    if max(-low, high) > reach:
+        raise InputError(
+            f"contact_centre = {contact_centre} m, contact_half_width = {contact_half_width} m: "
+            f"the fine zone must lie within {reach:.4f} m of the crown on both sides"
+        )
+    grading = _Grading(size, coarse, growth)
+    if symmetric:
+        return _half(outline, grading, -high, high)
+    right = _half(outline, grading, low, high)
+    return _whole(_half(outline, grading, -high, -low), right)
 
-    side = profile.half_outline()
-    marks = [_nearest(side, p) for p in _block_corners(profile)]
-    shoulder, head_corner, web_top, web_bottom, foot_top, foot_bottom = marks
+
+@dataclass(frozen=True)
+class _Grading:
+    """Element sizes in m: at the running surface and the largest; ratio of neighbours."""
+
+    size: float
+    coarse: float
+    growth: float
+
+    def columns(self, low: float, high: float, length: float) -> tuple[Array, IntArray]:
+        """Arc lengths from the axis to the shoulder, fine from `low` to `high`; which are fine."""
+        h = self.size
+        count = max(2, round((high - low) / h))
+        fine = low + (high - low) / count * np.arange(count + 1)
+        if low <= 0.0 <= high:
+            # a line on the axis, which both halves share
+            fine = h * np.arange(np.floor(low / h + 1e-9), np.ceil(high / h - 1e-9) + 1)
+        fine = fine[fine >= -1e-9 * h]
+        if not len(fine):
+            # all of the fine zone lies on the other half: go on growing from where it ends
+            first = min(h + (self.growth - 1) * -high, self.coarse)
+            return graded(length, first, self.growth, self.coarse), np.empty(0, dtype=np.int64)
+        before = np.empty(0)
+        if fine[0] > 1e-9 * h:
+            before = fine[0] - graded(fine[0], h * self.growth, self.growth, self.coarse)[:0:-1]
+        after = graded(length - fine[-1], h * self.growth, self.growth, self.coarse)[1:]
+        columns = np.r_[before, fine, fine[-1] + after]
+        return columns, len(before) + np.arange(len(fine))
+
+
+@dataclass(frozen=True)
+class _Outline:
+    """Right half of the outline and where the corners of the blocks lie on it."""
+
+    profile: RailProfile
+    side: Array
+    marks: tuple[int, ...]
+
+    @classmethod
+    def of(cls, profile: RailProfile) -> "_Outline":
+        side = profile.half_outline()
+        return cls(profile, side, tuple(_nearest(side, p) for p in _block_corners(profile)))
+
+    @property
+    def top_length(self) -> float:
+        """Arc length from the crown to the shoulder in m."""
+        top = self.side[: self.marks[0] + 1]
+        return float(np.sum(np.hypot(*np.diff(top, axis=0).T)))
+
+
+def _half(outline: _Outline, grading: _Grading, low: float, high: float) -> SectionMesh:
+    """Right half, its running surface fine from arc length `low` to `high`."""
+    side, coarse = outline.side, grading.coarse
+    shoulder, head_corner, web_top, web_bottom, foot_top, foot_bottom = outline.marks
     web_half = side[web_top, 0]
-
-    # columns: the web's share, then the rest of the fine zone, then growing to the shoulder
-    nw = max(2, round(min(web_half, contact_half_width) / size))
-    top_curve = side[0 : shoulder + 1]
-    length = float(np.sum(np.hypot(*np.diff(top_curve, axis=0).T)))
-    fine = np.arange(0.0, contact_half_width + 0.5 * size, size)
-    if len(fine) <= nw:
-        fine = np.arange(nw + 1) * size
-    rest = graded(length - fine[-1], size * growth, growth, coarse)[1:]
-    columns = np.r_[fine, fine[-1] + rest] / length
-    top = along(top_curve, columns)
-    top[: len(fine), 0] = fine
-    top[:, 1] = profile.running_surface(top[:, 0])
+    lines, fine = grading.columns(low, high, outline.top_length)
+    # the columns next to the axis are the web's
+    nw = min(max(2, int(np.argmin(np.abs(lines - web_half)))), len(lines) - 2)
+    columns = lines / lines[-1]
+    top = along(side[0 : shoulder + 1], columns)
+    top[fine, 1] = outline.profile.running_surface(top[fine, 0])
     web_fraction = np.linspace(0.0, 1.0, nw + 1)
 
     def straight(z: float, half: float) -> Array:
@@ -146,7 +209,7 @@ def rail_section_mesh(
 
     # head: rows grow downwards from the running surface
     depth = -side[web_top, 1]
-    rows = graded(depth, size, growth, coarse)
+    rows = graded(depth, grading.size, grading.growth, coarse)
     head_rows = 1 - rows[::-1] / depth  # fractions from bottom to top
     under = side[head_corner : web_top + 1][::-1]
     share = (columns[nw:] - columns[nw]) / (columns[-1] - columns[nw])
@@ -178,29 +241,28 @@ def rail_section_mesh(
     foot = transfinite(foot_low, foot_top_edge, foot_left, foot_right)
 
     nodes, quads, ids = join(foot, web, head)
-    surface = ids[2][-1, : len(fine)]
-    underside = ids[0][0]
-    if symmetric:
-        return SectionMesh(nodes, quads, surface, underside, True)
-    return _mirrored(SectionMesh(nodes, quads, surface, underside, True))
+    return SectionMesh(nodes, quads, ids[2][-1, fine], ids[0][0], True)
 
 
 def _nearest(side: Array, point: tuple[float, float]) -> int:
     return int(np.argmin(np.hypot(side[:, 0] - point[0], side[:, 1] - point[1])))
 
 
-def _mirrored(half: SectionMesh) -> SectionMesh:
-    """The whole section from its right half."""
-    axis = half.plane_of_symmetry
-    n = len(half.nodes)
-    image = np.empty(n, dtype=np.int64)
-    others = np.setdiff1d(np.arange(n), axis)
-    image[axis] = axis
+def _whole(left: SectionMesh, right: SectionMesh) -> SectionMesh:
+    """The whole section from two right halves, the first one mirrored; they share the axis."""
+    n = len(right.nodes)
+    heights = {round(float(right.nodes[i, 1]), 9): int(i) for i in right.plane_of_symmetry}
+    image = np.empty(len(left.nodes), dtype=np.int64)
+    axis = left.plane_of_symmetry
+    image[axis] = [heights[round(float(z), 9)] for z in left.nodes[axis, 1]]
+    others = np.setdiff1d(np.arange(len(left.nodes)), axis)
     image[others] = n + np.arange(len(others))
-    nodes = np.vstack([half.nodes, half.nodes[others] * [-1.0, 1.0]])
-    quads = np.vstack([half.quads, image[half.quads][:, ::-1]])
+    nodes = np.vstack([right.nodes, left.nodes[others] * [-1.0, 1.0]])
+    quads = np.vstack([right.quads, image[left.quads][:, ::-1]])
 
-    def both(ids: IntArray) -> IntArray:
-        return np.r_[image[ids[::-1]][:-1], ids]
+    def both(a: IntArray, b: IntArray) -> IntArray:
+        ids = np.r_[image[a[::-1]], b]
+        return ids[np.r_[True, np.diff(ids) != 0]]
 
-    return SectionMesh(nodes, quads, both(half.surface), both(half.foot), False)
+    surface, foot = both(left.surface, right.surface), both(left.foot, right.foot)
+    return SectionMesh(nodes, quads, surface, foot, False)
