@@ -27,8 +27,8 @@ _CORNERS = np.array(
     ],
     dtype=float,
 )
-# 2 x 2 x 2 Gauss rule, weights 1: exact for the stiffness of a parallelepiped.
-_GAUSS = _CORNERS / np.sqrt(3.0)
+GAUSS = _CORNERS / np.sqrt(3.0)
+"""2 x 2 x 2 Gauss rule, weights 1: exact for the stiffness of a parallelepiped."""
 
 
 def elasticity_matrix(youngs_modulus: float, poisson_ratio: float) -> Array:
@@ -104,6 +104,42 @@ def _jacobians(coordinates: Array, gradients: Array) -> tuple[Array, Array]:
     return np.linalg.inv(J), det
 
 
+def strain_operators(coordinates: Array) -> tuple[Array, Array, Array]:
+    """Strains at the Gauss points for unit corner displacements and unit bubbles.
+
+    Parameters
+    ----------
+    coordinates : ndarray (m, 8, 3)
+        Corner coordinates in m.
+
+    Returns
+    -------
+    nodal : ndarray (m, 8, 6, 24)
+        B of ``strain = B u``.
+    bubbles : ndarray (m, 8, 6, 9)
+        H of the three quadratic bubble modes of each displacement component.
+    determinant : ndarray (m, 8)
+        Volume in m^3 that a Gauss point stands for.
+
+    Raises
+    ------
+    InputError
+        If an element is inverted.
+    """
+    _, dN = _shape(GAUSS)
+    inverse, det = _jacobians(coordinates, dN)
+    # grad N = J^-1 dN/dxi
+    B = _strain(np.einsum("mpij,paj->mpai", inverse, dN))
+    # Bubbles 1 - xi_d^2: gradient -2 xi_d e_d in the reference element, mapped with the
+    # Jacobian of the element centre and scaled by det J0/det J, so that the integral of the
+    # bubble strains vanishes and constant strains are reproduced exactly.
+    _, dN0 = _shape(np.zeros((1, 3)))
+    inverse0, det0 = _jacobians(coordinates, dN0)
+    bubble = -2.0 * GAUSS[:, :, None] * np.eye(3)  # (p, bubble, direction)
+    G = np.einsum("mij,pbj->mpbi", inverse0[:, 0], bubble) * (det0 / det)[:, :, None, None]
+    return B, _strain(G), det
+
+
 def hex_stiffness(
     coordinates: Array, youngs_modulus: float, poisson_ratio: float, incompatible: bool = True
 ) -> Array:
@@ -131,23 +167,11 @@ def hex_stiffness(
     InputError
         If an element is inverted or an elastic constant impossible.
     """
-    coordinates = np.asarray(coordinates, dtype=float)
     D = elasticity_matrix(youngs_modulus, poisson_ratio)
-    _, dN = _shape(_GAUSS)
-    inverse, det = _jacobians(coordinates, dN)
-    # grad N = J^-1 dN/dxi
-    B = _strain(np.einsum("mpij,paj->mpai", inverse, dN))
+    B, H, det = strain_operators(np.asarray(coordinates, dtype=float))
     K = np.einsum("mpsi,st,mptj,mp->mij", B, D, B, det, optimize=True)
     if not incompatible:
         return np.asarray(K)
-    # Bubbles 1 - xi_d^2: gradient -2 xi_d e_d in the reference element, mapped with the
-    # Jacobian of the element centre and scaled by det J0/det J, so that the integral of the
-    # bubble strains vanishes and constant strains are reproduced exactly.
-    _, dN0 = _shape(np.zeros((1, 3)))
-    inverse0, det0 = _jacobians(coordinates, dN0)
-    bubble = -2.0 * _GAUSS[:, :, None] * np.eye(3)  # (p, bubble, direction)
-    G = np.einsum("mij,pbj->mpbi", inverse0[:, 0], bubble) * (det0 / det)[:, :, None, None]
-    H = _strain(G)
     Kua = np.einsum("mpsi,st,mptj,mp->mij", B, D, H, det, optimize=True)
     Kaa = np.einsum("mpsi,st,mptj,mp->mij", H, D, H, det, optimize=True)
     # static condensation of the bubbles: K - Kua Kaa^-1 Kau
@@ -171,7 +195,7 @@ def hex_mass(coordinates: Array, density: float) -> Array:
         Mass in kg.
     """
     coordinates = np.asarray(coordinates, dtype=float)
-    N, dN = _shape(_GAUSS)
+    N, dN = _shape(GAUSS)
     _, det = _jacobians(coordinates, dN)
     scalar = density * np.einsum("pa,pb,mp->mab", N, N, det)
     return np.asarray(np.einsum("mab,ij->maibj", scalar, np.eye(3)).reshape(-1, 24, 24))
