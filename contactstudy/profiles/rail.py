@@ -146,7 +146,7 @@ class RailProfile:
         b = np.asarray(y, dtype=float)
         side, begin = np.abs(b), 0.0
         arc = np.full(b.shape, np.nan)
-        for piece in self._top:
+        for piece in self.running_pieces:
             here = (side >= piece.start[0]) & (side <= piece.end[0])
             arc[here] = begin + piece.length_to(side[here])
             begin += float(piece.length_to(np.array([piece.end[0]]))[0])
@@ -171,14 +171,14 @@ class RailProfile:
         return next(p for p in self.pieces if p.part == part)
 
     @property
-    def _top(self) -> tuple[Piece, ...]:
-        """Pieces of the right half of the running surface, from the crown."""
+    def running_pieces(self) -> tuple[Piece, ...]:
+        """Pieces of the right half of the running surface, from the crown down the side face."""
         return self.pieces[: 1 + self.pieces.index(self._piece("side face"))]
 
     def _surface(self, y: ArrayLike, derivative: int) -> NDArray[np.float64]:
         b = np.asarray(y, dtype=float)
         side = np.abs(b)
-        top = self._top
+        top = self.running_pieces
         ends = np.array([p.end[0] for p in top])
         which = np.searchsorted(ends, side, side="left")
         z = np.full(b.shape, np.nan)
