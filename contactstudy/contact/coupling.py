@@ -16,12 +16,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contactstudy.banded import Factor
+from contactstudy.contact.augmented import enforcement
 from contactstudy.contact.interpolation import SplineLine
 from contactstudy.contact.points import ContactPoints
 from contactstudy.contact.press import penalty_compliance
 from contactstudy.contact.residual import PatchSource, ResidualFlexibility, patch_splines
 from contactstudy.contact.search import CandidateList
-from contactstudy.contact.surface import contact_forces
 from contactstudy.dynamics import ContactStep
 from contactstudy.exceptions import NumericalError
 
@@ -49,7 +49,7 @@ class PatchState:
 
 
 class SurfaceCoupling:
-    """Penalty pressure on the points of one wheel.
+    """Pressure on the points of one wheel.
 
     Parameters
     ----------
@@ -74,6 +74,9 @@ class SurfaceCoupling:
     rail_period : int or None
         Steps after which the rail's residual flexibility repeats; its ripple with the phase of
         the mesh is then taken out, see `contact.residual`.
+    tolerance : float or None
+        Largest overlap in m that an augmented Lagrangian leaves, which starts from the forces of
+        the last step; None: the penalty alone.
 
     Attributes
     ----------
@@ -97,10 +100,12 @@ class SurfaceCoupling:
         penalty: float,
         rail_step: float,
         rail_period: int | None = None,
+        tolerance: float | None = None,
     ) -> None:
         self._track, self.points, self._candidates = track, points, candidates
         self.wheel_dof, self.positions, self._irregularity = wheel_dof, positions, irregularity
         self._compliance = penalty_compliance(points, penalty)
+        self._law = enforcement(tolerance)
         n = len(points.gap)
         tread = points.wheel_rows.matrix(len(wheel_flexibility))
         self._wheel_W = tread @ wheel_flexibility @ tread.T
@@ -109,6 +114,7 @@ class SurfaceCoupling:
         self.half_length = float(np.abs(points.x).max()) + 2 * rail_step
         self._active = np.zeros(n, dtype=bool)
         self._gap = points.gap
+        self._overlap = np.zeros(n)
         self._listed: IntArray | None = None
         self._allowed = np.zeros(n, dtype=bool)
         self._patch_step = -1
@@ -158,7 +164,7 @@ class SurfaceCoupling:
             "contact_force": np.array([total]),
             "contact_area": points.contact_area(active),
             "peak_pressure": float((self._tread @ forces / self._tread_area).max()),
-            "penetration": float((self._compliance * forces).max()),
+            "penetration": float(self._overlap.max()),
             # what the reduced track leaves out of the centre line's deflection
             "centre_residual": -float(patch.centre_residual @ surface_load),
         }
@@ -233,7 +239,7 @@ class SurfaceCoupling:
         ny = len(self.points.y)
         for _ in range(20):
             index = np.flatnonzero(chosen)
-            forces, active = np.zeros(n), np.zeros(n, dtype=bool)
+            forces, active, overlap = np.zeros(n), np.zeros(n, dtype=bool), np.zeros(n)
             nodal = np.zeros(len(H))
             if len(index):
                 P = self._along[index // ny, :, None] * self._across[index % ny, None, :]
@@ -244,7 +250,13 @@ class SurfaceCoupling:
                 M += self._wheel_W[index[:, None], index]
                 M += np.outer(wheel_scale * normal[index], normal[index])
                 M.flat[:: len(index) + 1] += self._compliance[index]
-                solution = contact_forces(M, free[index], self._active[index])
+                solution, overlap[index] = self._law.forces(
+                    M,
+                    free[index],
+                    self._compliance[index],
+                    self.last.forces[index],
+                    self._active[index],
+                )
                 forces[index], active[index] = solution.forces, solution.active
                 nodal = P.T @ solution.forces
             gap = (
@@ -257,7 +269,7 @@ class SurfaceCoupling:
             missed = ~chosen & (gap < -1e-12)
             if not missed.any():
                 self._check_edge(step, active)
-                self._active, self._gap = active, gap
+                self._active, self._gap, self._overlap = active, gap, overlap
                 return forces, nodal
             if np.any(missed & ~allowed):
                 raise NumericalError(

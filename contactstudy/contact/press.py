@@ -5,9 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from contactstudy.contact.augmented import enforcement
 from contactstudy.contact.interpolation import SplineLine
 from contactstudy.contact.points import ContactPoints
-from contactstudy.contact.surface import PressedForces, press
+from contactstudy.contact.surface import PressedForces
 from contactstudy.exceptions import InputError
 
 Array = NDArray[np.float64]
@@ -45,6 +46,8 @@ class PressCurve:
     ----------
     force, approach, stiffness : ndarray (k,)
         Resultants in N, approaches in m, tangents dF/d(approach) in N/m.
+    penetration : ndarray (k,)
+        Largest overlap of the bodies left by the enforcement, m.
     solutions : tuple of PressedForces
         Forces at the contact points for every load.
     """
@@ -52,6 +55,7 @@ class PressCurve:
     force: Array
     approach: Array
     stiffness: Array
+    penetration: Array
     solutions: tuple[PressedForces, ...]
 
     @property
@@ -130,6 +134,7 @@ def press_curve(
     loads: Array,
     penalty: float = 1e16,
     reference: Array | None = None,
+    tolerance: float | None = None,
 ) -> PressCurve:
     """Press two bodies together with given forces.
 
@@ -148,36 +153,47 @@ def press_curve(
         Downward displacement in m/N of a reference on the lower body (the rail's centre line)
         for unit forces at the points: the approach is then measured from there instead of from
         the point to which the flexibility is fixed.
+    tolerance : float, optional
+        Largest overlap in m that an augmented Lagrangian leaves, see `contact.augmented`. None:
+        the penalty alone.
 
     Returns
     -------
     PressCurve
     """
-    M = flexibility + np.diag(penalty_compliance(points, penalty))
+    compliance, law = penalty_compliance(points, penalty), enforcement(tolerance)
+    M = flexibility + np.diag(compliance)
     normal = points.normal_z
-    approach, stiffness, solutions = [], [], []
+    approach, stiffness, penetration, solutions = [], [], [], []
     last: PressedForces | None = None
     for load in np.asarray(loads, dtype=float):
-        last = press(
+        last, overlap = law.press(
             M,
             points.gap,
+            compliance,
+            np.zeros(len(normal)) if last is None else last.forces,
+            None if last is None else last.active,
             normal,
             float(load),
-            None if last is None else last.active,
             None if last is None else last.approach,
         )
-        delta, compliance = last.approach, 1.0 / last.stiffness
+        delta, softness = last.approach, 1.0 / last.stiffness
         if reference is not None:
             # d lam/dF = M_AA^-1 n_A / (n_A^T M_AA^-1 n_A)
             active = last.active
             rate = np.linalg.solve(M[np.ix_(active, active)], normal[active]) / last.stiffness
             delta -= float(reference @ last.forces)
-            compliance -= float(reference[active] @ rate)
+            softness -= float(reference[active] @ rate)
         approach.append(delta)
-        stiffness.append(1.0 / compliance)
+        stiffness.append(1.0 / softness)
+        penetration.append(float(overlap.max()))
         solutions.append(last)
     return PressCurve(
-        np.asarray(loads, dtype=float), np.array(approach), np.array(stiffness), tuple(solutions)
+        np.asarray(loads, dtype=float),
+        np.array(approach),
+        np.array(stiffness),
+        np.array(penetration),
+        tuple(solutions),
     )
 
 
