@@ -12,9 +12,11 @@ from numpy.typing import NDArray
 
 from contactstudy.exceptions import InputError
 from contactstudy.solids.chain import BlockTridiagonal
-from contactstudy.solids.hexahedron import hex_stiffness
+from contactstudy.solids.hexahedron import hex_stiffness, strain_operators
+from contactstudy.solids.stress import hex_stress, nodal_stress
 
 Array = NDArray[np.float64]
+IntArray = NDArray[np.int64]
 
 
 @dataclass(frozen=True)
@@ -109,6 +111,196 @@ def _images(point: tuple[float, float], symmetric: tuple[bool, bool]) -> list[tu
     return [(x, y) for x in xs for y in ys]
 
 
+class HalfSpaceBlock:
+    """The block, factored: any loads on its surface, then stresses where they are wanted.
+
+    Parameters
+    ----------
+    x_lines, y_lines, depth_lines : ndarray
+        Mesh lines in m; ``depth_lines[0] = 0`` is the surface. A symmetry plane lies at the
+        first line, which must then be 0.
+    youngs_modulus, poisson_ratio : float
+        Elastic constants, E in Pa.
+    symmetric : tuple of bool
+        Symmetry about x = 0 and y = 0.
+
+    Attributes
+    ----------
+    nodes : ndarray (nx, ny, nz, 3)
+        Positions (x, y, depth) in m.
+
+    Raises
+    ------
+    InputError
+        If a symmetry plane is not at 0.
+    """
+
+    def __init__(
+        self,
+        x_lines: Array,
+        y_lines: Array,
+        depth_lines: Array,
+        youngs_modulus: float = 210e9,
+        poisson_ratio: float = 0.3,
+        symmetric: tuple[bool, bool] = (True, True),
+    ) -> None:
+        x, y, z = (np.asarray(v, dtype=float) for v in (x_lines, y_lines, depth_lines))
+        for name, line, sym in (("x", x, symmetric[0]), ("y", y, symmetric[1])):
+            if sym and line[0] != 0.0:
+                raise InputError(
+                    f"half-space block: {name} lines must start at 0 on a symmetry plane"
+                )
+        self._lines, self._symmetric = (x, y, z), symmetric
+        self._constants = (youngs_modulus, poisson_ratio)
+        self.nodes = np.stack(np.meshgrid(x, y, z, indexing="ij"), axis=-1)
+        nx, ny, nz = self.nodes.shape[:3]
+        self._slabs = self._stiffness()
+        # what is fixed: the outer faces wholly, the symmetry planes in their normal
+        fixed = np.zeros((nx, ny, nz, 3), dtype=bool)
+        fixed[-1], fixed[:, -1], fixed[:, :, -1] = True, True, True
+        fixed[0, :, :, slice(0, 1) if symmetric[0] else slice(None)] = True
+        fixed[:, 0, :, slice(1, 2) if symmetric[1] else slice(None)] = True
+        self._outer = fixed.all(axis=3)
+        self._free = ~fixed.reshape(nx, 3 * ny * nz)
+        self._keep = [k for k in range(nx) if self._free[k].any()]
+        n = 3 * ny * nz
+        diagonal, upper = [], []
+        for k in self._keep:
+            on = self._free[k]
+            D = np.zeros((n, n))
+            if k > 0:
+                D += self._slabs[k - 1][n:, n:]
+            if k < nx - 1:
+                D += self._slabs[k][:n, :n]
+            diagonal.append(D[np.ix_(on, on)])
+            if k + 1 in self._keep:
+                upper.append(self._slabs[k][:n, n:][np.ix_(on, self._free[k + 1])])
+        self._factor = BlockTridiagonal(diagonal, upper)
+
+    def _elements(self) -> IntArray:
+        """Corner nodes of the elements between planes 0 and 1, (m, 8).
+
+        Reference axes (xi, eta, zeta) lie along (y, depth, x), a right-handed triple. A plane's
+        node index is ``iy*nz + iz``.
+        """
+        ny, nz = self.nodes.shape[1:3]
+        plane = np.arange(ny * nz).reshape(ny, nz)
+        quads = np.stack(
+            [plane[:-1, :-1], plane[1:, :-1], plane[1:, 1:], plane[:-1, 1:]], axis=-1
+        ).reshape(-1, 4)
+        return np.concatenate([quads, quads + ny * nz], axis=1)
+
+    def _stiffness(self) -> list[Array]:
+        """Stiffness of every slab on its two planes; equally thick ones share one array."""
+        ny, nz = self.nodes.shape[1:3]
+        elements, n = self._elements(), 3 * ny * nz
+        dofs = (3 * elements[:, :, None] + np.arange(3)).reshape(-1, 24)
+        made: dict[float, Array] = {}
+        slabs = []
+        for k, thickness in enumerate(np.diff(self._lines[0]).round(12).tolist()):
+            if thickness not in made:
+                K = hex_stiffness(self._corners(k), *self._constants)
+                made[thickness] = np.zeros((2 * n, 2 * n))
+                np.add.at(made[thickness], (dofs[:, :, None], dofs[:, None, :]), K)
+            slabs.append(made[thickness])
+        return slabs
+
+    def _corners(self, k: int) -> Array:
+        """Coordinates of the elements behind plane k, (m, 8, 3)."""
+        return np.asarray(self.nodes[k : k + 2].reshape(-1, 3)[self._elements()])
+
+    def _loaded(self, loaded: tuple[slice, slice]) -> tuple[IntArray, IntArray]:
+        nx, ny = self.nodes.shape[:2]
+        return np.arange(nx)[loaded[0]], np.arange(ny)[loaded[1]]
+
+    def displacement(self, loaded: tuple[slice, slice], forces: Array) -> Array:
+        """Displacements under nodal forces.
+
+        Parameters
+        ----------
+        loaded : tuple of slice
+            Lines in x and y that make the grid of loaded surface nodes; not on an outer face.
+        forces : ndarray (nodes, k)
+            Into the body in N; node index ``ix*ny + iy`` of the loaded grid. With a symmetry
+            plane a force is the total over the node and its images.
+
+        Returns
+        -------
+        ndarray (nx, ny, nz, 3, k)
+            Along (x, y, depth) in m.
+        """
+        (nx, ny, nz), (ix, iy) = self.nodes.shape[:3], self._loaded(loaded)
+        n, k_loads = 3 * ny * nz, forces.shape[1]
+        # the far field of all loads, on wholly fixed nodes only
+        x, y, _ = self._lines
+        outer = self.nodes[self._outer]
+        unit = np.zeros((len(outer), 3, len(ix) * len(iy)))
+        for column, (i, j) in enumerate((i, j) for i in ix for j in iy):
+            images = _images((x[i], y[j]), self._symmetric)
+            for px, py in images:
+                unit[:, :, column] += boussinesq(
+                    outer[:, 0] - px, outer[:, 1] - py, outer[:, 2], *self._constants
+                ) / len(images)
+        u = np.zeros((nx, ny, nz, 3, k_loads))
+        u[self._outer] = unit @ forces
+        imposed = u.reshape(nx, n, k_loads)
+        nodal = forces.reshape(len(ix), len(iy), k_loads) / len(
+            _images((1.0, 1.0), self._symmetric)
+        )
+        # K_ff u_f = f - K_fs u_s, slab by slab
+        rhs = np.zeros((nx, n, k_loads))
+        rhs[np.ix_(ix, 3 * nz * iy + 2)] = nodal
+        for k, A in enumerate(self._slabs):
+            reaction = A @ np.concatenate([imposed[k], imposed[k + 1]])
+            rhs[k] -= reaction[:n]
+            rhs[k + 1] -= reaction[n:]
+        solution = self._factor.solve([rhs[k][self._free[k]] for k in self._keep])
+        for k, values in zip(self._keep, solution, strict=True):
+            imposed[k][self._free[k]] = values
+        return u
+
+    def patch(self, loaded: tuple[slice, slice]) -> HalfSpacePatch:
+        """Flexibility of a grid of surface nodes.
+
+        Returns
+        -------
+        HalfSpacePatch
+            Symmetrised; Betti's reciprocity holds up to the discretisation of the far field.
+        """
+        ix, iy = self._loaded(loaded)
+        count = len(ix) * len(iy)
+        u = self.displacement(loaded, np.eye(count))
+        F = u[np.ix_(ix, iy, [0], [2])].reshape(count, count)
+        x, y, _ = self._lines
+        return HalfSpacePatch(x[ix], y[iy], 0.5 * (F + F.T), self._symmetric)
+
+    def stress(self, displacement: Array) -> Array:
+        """Stresses at the nodes, averaged over the elements about each.
+
+        Parameters
+        ----------
+        displacement : ndarray (nx, ny, nz, 3)
+            In m.
+
+        Returns
+        -------
+        ndarray (nx, ny, nz, 6)
+            (xx, yy, zz, yz, zx, xy) in Pa in the axes (x, y, depth).
+        """
+        nx, ny, nz = self.nodes.shape[:3]
+        elements, u = self._elements(), displacement.reshape(nx, -1, 3)
+        gauss, volume = [], []
+        for k in range(nx - 1):
+            corners = self._corners(k)
+            gauss.append(
+                hex_stress(corners, u[k : k + 2].reshape(-1, 3)[elements], *self._constants)
+            )
+            volume.append(strain_operators(corners)[2].sum(axis=1))
+        numbers = np.concatenate([elements + k * ny * nz for k in range(nx - 1)])
+        nodal = nodal_stress(np.concatenate(gauss), numbers, np.concatenate(volume), nx * ny * nz)
+        return nodal.reshape(nx, ny, nz, 6)
+
+
 def half_space_patch(
     x_lines: Array,
     y_lines: Array,
@@ -122,97 +314,14 @@ def half_space_patch(
 
     Parameters
     ----------
-    x_lines, y_lines, depth_lines : ndarray
-        Mesh lines in m; ``depth_lines[0] = 0`` is the surface. A symmetry plane lies at the
-        first line, which must then be 0.
+    x_lines, y_lines, depth_lines, youngs_modulus, poisson_ratio, symmetric
+        As of `HalfSpaceBlock`.
     loaded : tuple of slice
         Lines in x and y that make the grid of loaded surface nodes; not on an outer face.
-    youngs_modulus, poisson_ratio : float
-        Elastic constants, E in Pa.
-    symmetric : tuple of bool
-        Symmetry about x = 0 and y = 0.
 
     Returns
     -------
     HalfSpacePatch
-        Symmetrised; Betti's reciprocity holds up to the discretisation of the far field.
     """
-    x, y, z = (np.asarray(v, dtype=float) for v in (x_lines, y_lines, depth_lines))
-    for name, line, sym in (("x", x, symmetric[0]), ("y", y, symmetric[1])):
-        if sym and line[0] != 0.0:
-            raise InputError(f"half-space block: {name} lines must start at 0 on a symmetry plane")
-    nx, ny, nz = len(x), len(y), len(z)
-    ix, iy = np.arange(nx)[loaded[0]], np.arange(ny)[loaded[1]]
-    # quantities a plane x = const: node index iy*nz + iz, z counted as depth
-    Y, Z = np.meshgrid(y, z, indexing="ij")
-    plane = np.arange(ny * nz).reshape(ny, nz)
-    quads = np.stack(
-        [plane[:-1, :-1], plane[1:, :-1], plane[1:, 1:], plane[:-1, 1:]], axis=-1
-    ).reshape(-1, 4)
-    slabs = []
-    for k in range(nx - 1):
-        c = np.empty((len(quads), 8, 3))
-        # element axes (xi, eta, zeta) = (y, depth, x): a right-handed triple
-        c[:, :4, 0], c[:, 4:, 0] = x[k], x[k + 1]
-        c[:, :4, 1] = c[:, 4:, 1] = Y.ravel()[quads]
-        c[:, :4, 2] = c[:, 4:, 2] = Z.ravel()[quads]
-        K = hex_stiffness(c, youngs_modulus, poisson_ratio)
-        n = 3 * ny * nz
-        dofs = (
-            3 * np.concatenate([quads, quads + ny * nz], axis=1)[:, :, None] + np.arange(3)
-        ).reshape(-1, 24)
-        A = np.zeros((2 * n, 2 * n))
-        np.add.at(A, (dofs[:, :, None], dofs[:, None, :]), K)
-        slabs.append(A)
-    # what is fixed: the outer faces wholly, the symmetry planes in their normal
-    n = 3 * ny * nz
-    fixed = np.zeros((nx, ny, nz, 3), dtype=bool)
-    fixed[-1], fixed[:, -1], fixed[:, :, -1] = True, True, True
-    if symmetric[0]:
-        fixed[0, :, :, 0] = True
-    else:
-        fixed[0] = True
-    if symmetric[1]:
-        fixed[:, 0, :, 1] = True
-    else:
-        fixed[:, 0] = True
-    free = ~fixed.reshape(nx, n)
-    # far field of every loaded node, on fixed degrees of freedom only
-    X3, Y3, Z3 = np.meshgrid(x, y, z, indexing="ij")
-    outer = fixed.all(axis=3)
-    far = np.zeros((nx, ny, nz, 3, len(ix) * len(iy)))
-    for column, (i, j) in enumerate((i, j) for i in ix for j in iy):
-        images = _images((x[i], y[j]), symmetric)
-        for px, py in images:
-            far[outer, :, column] += boussinesq(
-                X3[outer] - px, Y3[outer] - py, Z3[outer], youngs_modulus, poisson_ratio
-            ) / len(images)
-    imposed = far.reshape(nx, n, -1)
-    share = 1.0 / len(_images((1.0, 1.0), symmetric))
-    diagonal, upper, rhs = [], [], []
-    for k in range(nx):
-        D = np.zeros((n, n))
-        b = np.zeros((n, imposed.shape[2]))
-        if k > 0:
-            D += slabs[k - 1][n:, n:]
-            b -= slabs[k - 1][n:, :n] @ imposed[k - 1]
-        if k < nx - 1:
-            D += slabs[k][:n, :n]
-            b -= slabs[k][:n, n:] @ imposed[k + 1]
-            upper.append(slabs[k][:n, n:][np.ix_(free[k], free[k + 1])])
-        b -= D @ imposed[k]
-        if k in ix:
-            first = int(np.flatnonzero(ix == k)[0]) * len(iy)
-            b[3 * plane[iy, 0] + 2, first + np.arange(len(iy))] += share
-        diagonal.append(D[np.ix_(free[k], free[k])])
-        rhs.append(b[free[k]])
-    keep = [k for k in range(nx) if free[k].any()]
-    solution = BlockTridiagonal([diagonal[k] for k in keep], [upper[k] for k in keep[:-1]]).solve(
-        [rhs[k] for k in keep]
-    )
-    F = np.empty((len(ix) * len(iy), imposed.shape[2]))
-    for row, k in enumerate(ix):
-        u = np.zeros((n, imposed.shape[2]))
-        u[free[k]] = solution[keep.index(k)]
-        F[row * len(iy) : (row + 1) * len(iy)] = u[3 * plane[iy, 0] + 2]
-    return HalfSpacePatch(x[ix], y[iy], 0.5 * (F + F.T), symmetric)
+    block = HalfSpaceBlock(x_lines, y_lines, depth_lines, youngs_modulus, poisson_ratio, symmetric)
+    return block.patch(loaded)
