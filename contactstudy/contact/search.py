@@ -3,7 +3,7 @@
 FCL answers only the question "which facets come near"; distances, depths and normals are
 computed elsewhere in double precision from smooth geometry. The query is
 ``fcl.collide(BVH, Box)`` with the BVH first, because only the first object's facet numbers are
-returned, against boxes that enclose strips of the other body's surface. The BVH is built once
+returned, against boxes that enclose pieces of the other body's surface. The BVH is built once
 on the undeformed surface; the bodies' relative position enters through a transform.
 """
 
@@ -12,6 +12,7 @@ import numpy as np
 import trimesh
 from numpy.typing import NDArray
 
+from contactstudy.contact.boxes import facet_boxes, strip_boxes
 from contactstudy.exceptions import InputError
 
 Array = NDArray[np.float64]
@@ -105,80 +106,68 @@ def bounding_volumes(mesh: trimesh.Trimesh) -> "fcl.BVHModel":
     return model
 
 
-def strip_boxes(mesh: trimesh.Trimesh, y: Array, padding: float, depth: float = 0.0) -> Array:
-    """Boxes around the strips of a running surface between neighbouring lines y.
-
-    A box over the whole crown would be flat and let in every facet of a cylindrical tread;
-    strips follow the curvature.
-
-    Parameters
-    ----------
-    mesh : trimesh.Trimesh
-        Running surface with vertices on the lines.
-    y : ndarray (ny,)
-        Lines in m.
-    padding : float
-        Enlargement on all sides in m.
-    depth : float
-        Further enlargement downwards in m, for facets that already lie below the surface.
-
-    Returns
-    -------
-    ndarray (ny-1, 2, 3)
-        Lower and upper corners.
-    """
-    v = np.asarray(mesh.vertices)
-    boxes = np.empty((len(y) - 1, 2, 3))
-    for k in range(len(y) - 1):
-        strip = v[(v[:, 1] >= y[k] - 1e-9) & (v[:, 1] <= y[k + 1] + 1e-9)]
-        boxes[k] = strip.min(axis=0) - padding, strip.max(axis=0) + padding
-    boxes[:, 0, 2] -= depth
-    return boxes
-
-
 class CandidateList:
-    """Facets of the tread that can touch, kept until the bodies have moved (a Verlet list).
+    """Facets of the upper body that can touch, kept until the bodies have moved (a Verlet list).
 
-    A list made for the approach d holds every quadrilateral of the tread that comes within the
-    padding of the rail's surface. It serves all approaches up to ``d + padding``, and is made
-    anew as well when the approach has fallen so far that it is needlessly long.
+    A list made for the approach d holds every facet of the upper body that comes within the
+    padding of the lower body's surface, or has passed through it. It serves all approaches up to
+    ``d + padding``, and is made anew as well when the approach has fallen so far that it is
+    needlessly long.
+
+    A point of the upper body that lies below the lower surface stood above it at first touch, an
+    approach higher; so the boxes around the lower surface, drawn down by the approach, hold all
+    such points, whatever the shapes and the position of the bodies.
 
     Parameters
     ----------
     wheel : FacetSearch
-        Tread as made by `grid_surface`, lowest point of the smooth tread at z = 0.
+        The upper body in its position at first touch: the tread as made by `grid_surface`, or
+        any triangulated surface.
     rail : trimesh.Trimesh
-        Running surface under the wheel, top at z = 0.
-    rail_y : ndarray
-        Its lines in y, in m.
+        The lower body's surface, in the same axes.
+    rail_y : ndarray, optional
+        Lines in y of a running surface, in m, between which the boxes lie; without them the
+        boxes enclose groups of facets (`contactstudy.contact.boxes.facet_boxes`).
     sagitta : float
         Largest distance between facets and smooth surface, both bodies together, in m.
     padding : float
         In m.
+    box_size : float
+        Size across of the groups of facets in m.
+
+    Attributes
+    ----------
+    queries : int
+        How often the list was made.
     """
 
     def __init__(
         self,
         wheel: FacetSearch,
         rail: trimesh.Trimesh,
-        rail_y: Array,
-        sagitta: float,
+        rail_y: Array | None = None,
+        sagitta: float = 0.0,
         padding: float = 20e-6,
+        box_size: float = 2e-3,
     ) -> None:
-        self._wheel, self._rail, self._rail_y = wheel, rail, np.asarray(rail_y)
-        self._margin, self._padding = padding + sagitta, padding
+        self._wheel, self._padding = wheel, padding
+        margin = padding + sagitta
+        if rail_y is None:
+            self._boxes = facet_boxes(rail, box_size, margin)
+        else:
+            self._boxes = strip_boxes(rail, np.asarray(rail_y), margin)
         self._made_for = np.nan
-        self._quads = np.empty(0, dtype=np.int64)
+        self._facets = self._quads = np.empty(0, dtype=np.int64)
         self.queries = 0
 
-    def quads(self, approach: float) -> IntArray:
-        """Quadrilaterals of the tread that can touch at a rigid approach.
+    def facets(self, approach: float) -> IntArray:
+        """Triangles of the upper body that can touch at a rigid approach.
 
         Parameters
         ----------
         approach : float
-            How far the undeformed wheel stands below the first touch of the smooth surfaces,
-            in m; with irregularity its largest value over the patch.
+            How far the undeformed upper body stands below the first touch of the smooth
+            surfaces, in m; with irregularity its largest value over the patch.
 
         Returns
         -------
@@ -186,10 +175,16 @@ class CandidateList:
             Sorted; the same object as long as the list is the same.
         """
         if -2 * self._padding <= approach - self._made_for <= self._padding:
-            return self._quads
-        boxes = strip_boxes(self._rail, self._rail_y, self._margin, max(approach, 0.0))
-        triangles = self._wheel.meeting(boxes, np.array([0.0, 0.0, -approach]))
-        self._quads = np.unique(triangles // 2)
+            return self._facets
+        boxes = self._boxes.copy()
+        boxes[:, 0, 2] -= max(approach, 0.0)
+        self._facets = self._wheel.meeting(boxes, np.array([0.0, 0.0, -approach]))
+        self._quads = np.unique(self._facets // 2)
         self._made_for = approach
         self.queries += 1
+        return self._facets
+
+    def quads(self, approach: float) -> IntArray:
+        """As `facets`, quadrilaterals of a tread made by `grid_surface`."""
+        self.facets(approach)
         return self._quads
