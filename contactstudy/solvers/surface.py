@@ -11,6 +11,7 @@ from contactstudy.banded import Factor
 from contactstudy.contact.coupling import SurfaceCoupling
 from contactstudy.contact.points import ContactPoints, contact_points, rolling_drop
 from contactstudy.contact.press import PressCurve, press_curve, rail_matrix
+from contactstudy.contact.quadrature import Quadrature
 from contactstudy.contact.residual import ResidualFlexibility, patch_splines
 from contactstudy.contact.search import CandidateList, FacetSearch, grid_surface
 from contactstudy.dynamics import Integrator, average_acceleration
@@ -40,6 +41,8 @@ def surface_contact(
     journey: Journey,
     *,
     penalty: float = 1e16,
+    quadrature: Quadrature = "gauss",
+    tolerance: float | None = None,
     pressure_at: Sequence[float] = (),
     integrator: Integrator | None = None,
     progress: Progress | None = None,
@@ -61,6 +64,11 @@ def surface_contact(
         Where, how fast, which steps.
     penalty : float
         Pressure per penetration in Pa/m.
+    quadrature : {"gauss", "nodes"}
+        Contact points: Gauss points of the wheel's facets, or its tread nodes.
+    tolerance : float, optional
+        Largest penetration in m that an augmented Lagrangian leaves, see `contact.augmented`;
+        None: the penalty alone.
     pressure_at : sequence of float
         Positions of the wheel in m at whose nearest step the pressure field is kept.
     integrator : Integrator, optional
@@ -73,7 +81,8 @@ def surface_contact(
     xarray.Dataset
         See `contactstudy.solvers.dataset`; in addition `contact_area`, `peak_pressure` (at the
         wheel's tread nodes), `penetration` (largest), the static press of this very geometry
-        (`press_force`, `press_approach` from the hub to the rail's centre line), and with
+        (`press_force`, `press_approach` from the hub to the rail's centre line, `press_penetration`),
+        and with
         `pressure_at` the field `pressure` (instant, point) at the tread nodes and the deformed
         sections of wheel and rail at the first instant.
 
@@ -88,7 +97,9 @@ def surface_contact(
     integrator = integrator or average_acceleration()
     wheel = wheel or rigid_wheel(WheelRecipe(rail_profile=track.recipe.profile))
     problems = journey.problems_on(track.track, vehicle) + positive("penalty", penalty, "Pa/m")
-    problems += _problems(track, wheel, vehicle)
+    if tolerance is not None:
+        problems += positive("tolerance of the penetration", tolerance, "m")
+    problems += _problems(track, wheel, vehicle, quadrature)
     problems += [
         f"pressure_at = {x:g} m: the wheel must pass it, from {journey.start:g} to "
         f"{journey.end:g} m"
@@ -98,11 +109,15 @@ def surface_contact(
     raise_if(problems)
 
     assembly = Assembly(track, vehicle)
-    coupling, r = surface_coupling(assembly, wheel, irregularity, journey, penalty)
+    coupling, r = surface_coupling(
+        assembly, wheel, irregularity, journey, penalty, quadrature, tolerance
+    )
     points = coupling.points
     kept = Instants(coupling, track, coupling.positions, pressure_at)
     load = float(assembly.static_loads[0])
-    pressed = geometry_press(track, wheel, load * PRESS_LOADS, penalty)
+    pressed = geometry_press(
+        track, wheel, load * PRESS_LOADS, penalty, quadrature=quadrature, tolerance=tolerance
+    )
     elastic = bool(wheel.flexibility.any())
     data = run(
         assembly,
@@ -114,8 +129,10 @@ def surface_contact(
         attrs={
             "solver": "surface",
             "rail": "solid",
-            "law": "penalty",
+            "law": "penalty" if tolerance is None else "augmented Lagrangian",
             "penalty": penalty,
+            **({} if tolerance is None else {"penetration_tolerance": tolerance}),
+            "quadrature": quadrature,
             "wheel": "elastic" if elastic else "rigid",
             "mesh_size": track.recipe.size,
             "contact_points": len(points.gap),
@@ -131,6 +148,11 @@ def surface_contact(
         pressed.approach,
         {"units": "m", "long_name": "approach of the wheel's hub to the rail's centre line"},
     )
+    data["press_penetration"] = (
+        "press",
+        pressed.penetration,
+        {"units": "m", "long_name": "largest penetration"},
+    )
     return kept.into(data, points, wheel)
 
 
@@ -140,6 +162,8 @@ def surface_coupling(
     irregularity: Profile,
     journey: Journey,
     penalty: float = 1e16,
+    quadrature: Quadrature = "gauss",
+    tolerance: float | None = None,
 ) -> tuple[SurfaceCoupling, Array]:
     """Join the contact points of a wheel to all positions of a journey.
 
@@ -153,6 +177,8 @@ def surface_coupling(
     journey : Journey
     penalty : float
         In Pa/m.
+    quadrature, tolerance
+        As in `surface_contact`.
 
     Returns
     -------
@@ -160,7 +186,7 @@ def surface_coupling(
     irregularity : ndarray (n_times, 1)
         r under the wheel, faded in from its start, in m.
     """
-    track, points = assembly.track, wheel_points(wheel)
+    track, points = assembly.track, wheel_points(wheel, quadrature)
     assert isinstance(track, SolidTrack | UnreducedTrack)
     positions = journey.wheel_positions(assembly.vehicle.wheel_offsets)
     profile = faded(irregularity, float(positions[0, 0]), journey.fade_in)
@@ -175,11 +201,12 @@ def surface_coupling(
         penalty,
         track.thickness,
         track.residual_period,
+        tolerance,
     )
     return coupling, profile(positions)
 
 
-def wheel_points(wheel: WheelFlexibility) -> ContactPoints:
+def wheel_points(wheel: WheelFlexibility, quadrature: Quadrature = "gauss") -> ContactPoints:
     """Contact points of a centred wheel on the rail of its recipe."""
     recipe = wheel.recipe
     return contact_points(
@@ -188,6 +215,7 @@ def wheel_points(wheel: WheelFlexibility) -> ContactPoints:
         recipe.dimensions.radius,
         rail_profile(recipe.rail_profile),
         wheel_profile(recipe.profile),
+        quadrature=quadrature,
     )
 
 
@@ -214,6 +242,8 @@ def geometry_press(
     loads: Array,
     penalty: float = 1e16,
     x: float | None = None,
+    quadrature: Quadrature = "gauss",
+    tolerance: float | None = None,
 ) -> PressCurve:
     """Static press of the wheel on the rail, measured from the hub to the rail's centre line.
 
@@ -234,12 +264,14 @@ def geometry_press(
         In Pa/m.
     x : float, optional
         Position on the track in m; the middle of its middle bay when not given.
+    quadrature, tolerance
+        As in `surface_contact`.
 
     Returns
     -------
     PressCurve
     """
-    points = wheel_points(wheel)
+    points = wheel_points(wheel, quadrature)
     x = (track.track.n_bays // 2 + 0.5) * track.track.bay_length if x is None else x
     half_length = float(np.abs(points.x).max()) + 2 * track.thickness
     patch = track.patch(x, half_length)
@@ -260,11 +292,14 @@ def geometry_press(
     # deflection of the centre line per unit nodal force; forces push the rail down
     reference = P @ (patch.map @ (patch.centre_map @ solved[patch.centre_dofs]))
     reference += P @ patch.centre_residual
-    return press_curve(points, W, loads, penalty, reference)
+    return press_curve(points, W, loads, penalty, reference, tolerance)
 
 
 def _problems(
-    track: SolidTrack | UnreducedTrack, wheel: WheelFlexibility, vehicle: Vehicle
+    track: SolidTrack | UnreducedTrack,
+    wheel: WheelFlexibility,
+    vehicle: Vehicle,
+    quadrature: Quadrature,
 ) -> list[str]:
     problems = []
     if vehicle.n_wheels != 1:
@@ -276,7 +311,7 @@ def _problems(
             f"surface contact: the wheel was made for rail {wheel.recipe.rail_profile}, the track "
             f"has {track.recipe.profile}"
         )
-    outermost = float(wheel_points(wheel).y[-1])
+    outermost = float(wheel_points(wheel, quadrature).y[-1])
     if outermost > track.surface_y[-1]:
         problems.append(
             f"wheel contact_half_width = {wheel.y[-1]:.4g} m: its outermost contact points, at "

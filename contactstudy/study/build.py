@@ -185,7 +185,15 @@ def pressed_stiffness(study: Study, described: Track) -> float:
     """Tangent stiffness in N/m of the study's meshed wheel on its meshed rail, at static load."""
     load = float(vehicle(study).static_loads[0])
     loads = np.asarray(PRESS_LOADS) * load
-    curve = geometry_press(solid_track(study, described), wheel(study), loads, study.solid.penalty)
+    solid = study.solid
+    curve = geometry_press(
+        solid_track(study, described),
+        wheel(study),
+        loads,
+        solid.penalty,
+        quadrature=solid.contact_points,
+        tolerance=solid.tolerance,
+    )
     return tangent_stiffness(curve, load)
 
 

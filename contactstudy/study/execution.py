@@ -61,6 +61,8 @@ def _surface(study: Study, run: str, table: SurfaceRun, progress: Progress | Non
         irregularity_of(study, table.irregularity == "smooth"),
         build.journey(study, run),
         penalty=study.solid.penalty,
+        quadrature=study.solid.contact_points,
+        tolerance=study.solid.tolerance,
         pressure_at=study.solid.pressure_at,
         integrator=build.integrator(table),
         progress=progress,

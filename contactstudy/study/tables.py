@@ -172,6 +172,18 @@ class SolidTable(Section):
     internal_modes: q.InternalModes = 8
     contact_half_length: q.Length = 0.012
     contact_half_width: q.Length = 0.008
+    contact_points: Literal["gauss", "nodes"] = "gauss"
     penalty: q.Penalty = 1e16
+    enforcement: Literal["penalty", "augmented"] = "penalty"
+    penetration_tolerance: q.Length = 1e-9
     wheel: Literal["elastic", "rigid"] = "elastic"
     pressure_at: tuple[q.Position, ...] = ()
+
+    applies: ClassVar[dict[str, Condition]] = {
+        "penetration_tolerance": ("enforcement", ("augmented",))
+    }
+
+    @property
+    def tolerance(self) -> float | None:
+        """Penetration in m that an augmented Lagrangian leaves; None: the penalty alone."""
+        return self.penetration_tolerance if self.enforcement == "augmented" else None
