@@ -46,7 +46,9 @@ def describe(results: StudyResults, name: str) -> tuple[str, str]:
     """Rail and contact law of a run in words."""
     run: Mapping[str, Any] = results.config.get("runs", {}).get(name, {})
     if run.get("solver") == "surface":
-        return "solid", "surface, penalty"
+        attrs = results.runs[name].attrs
+        where = " at nodes" if attrs.get("quadrature") == "nodes" else ""
+        return "solid", f"surface, {attrs.get('law', 'penalty')}{where}"
     rails = {"euler": "Euler beam", "timoshenko": "Timoshenko beam", "solid": "solid"}
     rail = rails.get(str(run.get("rail")), str(run.get("rail", "–")))
     if run.get("rail") != "solid" and "elements_per_bay" in run:
