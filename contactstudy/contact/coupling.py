@@ -166,8 +166,13 @@ class SurfaceCoupling:
             "peak_pressure": float((self._tread @ forces / self._tread_area).max()),
             "penetration": float(self._overlap.max()),
             # what the reduced track leaves out of the centre line's deflection
-            "centre_residual": -float(patch.centre_residual @ surface_load),
+            "centre_residual": -float(patch.centre_residual[0] @ surface_load),
         }
+        if len(patch.centre_map) == 3:
+            at = patch.centre_dofs
+            motion = patch.centre_map[1:] @ (u_free[at] + increment[at])
+            motion -= patch.centre_residual[1:] @ surface_load
+            record["rail_lateral"], record["rail_roll"] = float(motion[0]), float(motion[1])
         return ContactStep(load, increment, record)
 
     def _move_to(self, step: int) -> None:

@@ -114,5 +114,5 @@ def patch_splines(patch: SurfacePatch, points: ContactPoints) -> tuple[SplineLin
 
     The nodes stand at equal distances, so one spline serves all positions of the patch.
     """
-    across = SplineLine(patch.y, mirrored=points.symmetric)
-    return SplineLine(patch.x - patch.x[0]), across(points.y)
+    across = SplineLine(patch.arc, mirrored=points.symmetric)
+    return SplineLine(patch.x - patch.x[0]), across(points.arc)

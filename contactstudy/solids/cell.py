@@ -32,17 +32,19 @@ class RailCell:
     recipe : CellRecipe
     stiffness, mass : ndarray (nd, nd)
         In N/m and kg.
-    surface_y : ndarray (ny,)
-        Lateral positions of the running-surface nodes in m.
+    surface_y, surface_arc : ndarray (ny,)
+        Lateral positions of the running-surface nodes, and their arc lengths from the crown,
+        in m.
     surface_map : ndarray (ns + 1, ny, nd)
         Displacement of the surface nodes along the outward normal.
-    centre_map, foot_map : ndarray (ns + 1, nd)
-        Mean vertical displacement of the section and of the foot's underside.
+    centre_map, foot_map : ndarray (ns + 1, nm, nd)
+        Mean motions of the section and of the foot's underside, see `SectionRows`.
     residual : ndarray ((2*ns + 1)*ny, (2*ns + 1)*ny)
         Flexibility in m/N of the surface nodes of two neighbouring cells that the reduced
         cells leave out.
-    centre_residual : ndarray (2*ns + 1, (2*ns + 1)*ny)
-        What surface loads add to the section mean beyond the reduced cells, in m/N.
+    centre_residual : ndarray (2*ns + 1, nm, (2*ns + 1)*ny)
+        What surface loads add to the section's motions beyond the reduced cells, in m/N, the
+        roll in rad/N.
     centre_compliance : ndarray (2, ns + 1)
         What a load spread over the section adds to that section's mean displacement, and to the
         next one's, beyond the reduced cells, in m/N (no next one for the last).
@@ -56,6 +58,7 @@ class RailCell:
     stiffness: Array
     mass: Array
     surface_y: Array
+    surface_arc: Array
     surface_map: Array
     centre_map: Array
     foot_map: Array
@@ -69,7 +72,13 @@ class RailCell:
 def section_of(recipe: CellRecipe) -> tuple[SectionMesh, ExtrudedSlice, SectionRows]:
     """Section mesh, one slice and the plane's functionals of a recipe."""
     profile = rail_profile(recipe.profile)
-    section = rail_section_mesh(profile, recipe.size, recipe.symmetric, recipe.contact_half_width)
+    section = rail_section_mesh(
+        profile,
+        recipe.size,
+        recipe.symmetric,
+        recipe.contact_half_width,
+        contact_centre=recipe.contact_centre,
+    )
     piece = extrude(
         section,
         recipe.length / recipe.n_slices,
@@ -112,13 +121,13 @@ def condense(recipe: CellRecipe) -> RailCell:
     # residual = exact window flexibility - flexibility of the same window of reduced cells
     F = _reduced_window(stiffness, m)
     pair_surface = pair_rows(surface_map, m)
-    pair_centre = pair_rows(centre_map[:, None], m)[:, 0]
+    pair_centre = pair_rows(centre_map, m)
     exact = _by_reflection(response.surface, ns, ny)
-    exact_centre = _by_reflection(response.centre[:, None], ns, ny)
+    exact_centre = _by_reflection(response.centre, ns, ny)
     S = pair_surface.reshape(-1, F.shape[0])
     residual = exact.reshape(S.shape[0], -1) - S @ F @ S.T
     # the second of the two cells; its exact values are those of the first, mirrored
-    own = pair_centre[ns:]
+    own = pair_centre[ns:, 0]
     reduced_own = own @ F @ own.T
     centre_compliance = np.zeros((2, ns + 1))
     centre_compliance[0] = response.own_centre[0, ::-1] - np.diag(reduced_own)
@@ -126,12 +135,13 @@ def condense(recipe: CellRecipe) -> RailCell:
     # the same for all nodes of the plane between the two cells, for drawing the section
     plane = _by_reflection(response.interfaces[None, 2, :, : (ns + 1) * ny], ns, ny)[0]
     drawn = _transverse(piece)
-    centre_residual = exact_centre[:, 0].reshape(2 * ns + 1, -1) - pair_centre @ F @ S.T
+    centre_residual = exact_centre - pair_centre @ (F @ S.T)
     return RailCell(
         recipe,
         stiffness,
         mass,
         rows.surface_y,
+        rows.surface_arc,
         surface_map,
         centre_map,
         foot_map,

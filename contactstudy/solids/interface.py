@@ -36,20 +36,23 @@ def interface_basis(
         Rigid motions first; the others orthonormal and orthogonal to them in the weighted
         product, so that the mean vertical displacement of a plane is its second coordinate.
     """
-    planes, n_surface = response.interfaces, response.centre.shape[1]
+    planes, n_surface = response.interfaces, response.centre.shape[2]
     n_slices = (response.surface.shape[0] - 1) // 2
     ny = response.surface.shape[1]
-    plane_of_load = np.r_[np.repeat(np.arange(n_slices + 1), ny), np.arange(n_slices + 1)]
-    foot = np.arange(planes.shape[2]) >= n_surface
+    n_foot = (planes.shape[2] - n_surface) // (n_slices + 1)
+    numbers = np.arange(n_slices + 1)
+    plane_of_load = np.r_[np.repeat(numbers, ny), np.tile(numbers, n_foot)]
     snapshots = []
     for i, u in enumerate(planes):
         distance = np.abs(plane_of_load - (i - 1) * n_slices)
         snapshots.append(u[:, distance >= n_slices // 2])
     # a pad presses evenly over its footprint: the mean over three quarters of a cell on each
     # side of the middle plane (both halves are alike but for the sign of u_x)
-    near = foot & (plane_of_load >= n_slices // 4)
-    pad = planes[2][:, near].mean(axis=1, keepdims=True)
-    snapshots.append(np.sqrt(near.sum()) * np.where(axial[:, None], 0.0, pad))
+    near = numbers[numbers >= n_slices // 4]
+    for motion in range(n_foot):
+        columns = n_surface + motion * (n_slices + 1) + near
+        pad = planes[2][:, columns].mean(axis=1, keepdims=True)
+        snapshots.append(np.sqrt(len(near)) * np.where(axial[:, None], 0.0, pad))
     X = np.hstack(snapshots)
     # the reflected loads: u_x changes sign. Taking both makes modes either axial or transverse.
     X = np.hstack([np.where(axial[:, None], X, 0.0), np.where(axial[:, None], 0.0, X)])

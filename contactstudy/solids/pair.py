@@ -22,10 +22,10 @@ class CellPair:
         Normal displacement of the running-surface nodes.
     residual : ndarray (2*ns + 1, ny, 2*ns + 1, ny)
         Residual flexibility between surface nodes in m/N.
-    centre : ndarray (2*ns + 1, width)
-        Mean vertical displacement of the section.
-    centre_residual : ndarray (2*ns + 1, 2*ns + 1, ny)
-        What surface loads add to it in m/N.
+    centre : ndarray (2*ns + 1, nm, width)
+        Mean motions of the section.
+    centre_residual : ndarray (2*ns + 1, nm, 2*ns + 1, ny)
+        What surface loads add to them in m/N (roll: rad/N).
     section_residual : ndarray (k, 2, 2*ns + 1, ny)
         What surface loads add to the displacement (y, z) of the nodes of the middle plane.
     """
@@ -45,7 +45,7 @@ def cell_pair(cell: RailCell) -> CellPair:
     return CellPair(
         surface=pair_rows(cell.surface_map, m),
         residual=cell.residual.reshape(planes, ny, planes, ny),
-        centre=pair_rows(cell.centre_map[:, None], m)[:, 0],
-        centre_residual=cell.centre_residual.reshape(planes, planes, ny),
+        centre=pair_rows(cell.centre_map, m),
+        centre_residual=cell.centre_residual.reshape(planes, -1, planes, ny),
         section_residual=cell.section_residual.reshape(-1, 2, planes, ny),
     )

@@ -23,6 +23,8 @@ class CellRecipe:
         Generalised modes of an interface plane, the beam's own included.
     internal_modes : int
         Fixed-interface vibration modes of a cell.
+    contact_centre : float
+        Centre of the fine running surface, arc length from the crown in m; 0 if symmetric.
     symmetric : bool
         Half section, for motion symmetric about the rail's vertical plane.
     youngs_modulus, poisson_ratio, density : float
@@ -35,6 +37,7 @@ class CellRecipe:
     contact_half_width: float = 0.010
     interface_modes: int = 14
     internal_modes: int = 8
+    contact_centre: float = 0.0
     symmetric: bool = True
     youngs_modulus: float = 210e9
     poisson_ratio: float = 0.3

@@ -20,13 +20,15 @@ class SectionRows:
     ----------
     surface : ndarray (ny, n)
         Displacement of the fine running-surface nodes along the outward normal.
-    surface_y : ndarray (ny,)
-        Their lateral positions in m.
-    centre : ndarray (n,)
-        Mean vertical displacement of the section, weighted by area: the deflection that
-        beam theory speaks of (Cowper 1966, J. Appl. Mech. 33:335).
-    foot : ndarray (n,)
-        Mean vertical displacement of the foot's underside.
+    surface_y, surface_arc : ndarray (ny,)
+        Their lateral positions, and their arc lengths from the crown, in m.
+    centre : ndarray (nm, n)
+        Mean motion of the section, weighted by area: vertical displacement, the deflection
+        that beam theory speaks of (Cowper 1966, J. Appl. Mech. 33:335), in m; for a whole
+        section (nm = 3) also lateral displacement in m and roll about X in rad.
+    foot : ndarray (nm, n)
+        Mean motion of the foot's underside, all in m: vertical displacement; for a whole
+        section also lateral displacement, and the rise of the edge y > 0 by roll.
     weights : ndarray (n,)
         Share of the section's area that belongs to each degree of freedom.
     rigid : ndarray (n, r)
@@ -36,6 +38,7 @@ class SectionRows:
 
     surface: Array
     surface_y: Array
+    surface_arc: Array
     centre: Array
     foot: Array
     weights: Array
@@ -67,7 +70,10 @@ def section_rows(section: SectionMesh, profile: RailProfile, piece: ExtrudedSlic
     )
     width = np.gradient(y[section.foot])
     width[[0, -1]] *= 0.5
+    width /= width.sum()
     zc = float(area @ z)
+    centre = [row(everywhere, 2, area)]
+    foot = [row(section.foot, 2, width)]
     rigid = [
         row(everywhere, 0, np.ones(n_nodes)),
         row(everywhere, 2, np.ones(n_nodes)),
@@ -79,11 +85,20 @@ def section_rows(section: SectionMesh, profile: RailProfile, piece: ExtrudedSlic
             row(everywhere, 0, -y),
             row(everywhere, 1, -(z - zc)) + row(everywhere, 2, y),
         ]
+        # theta = integral(y u_z - (z - z_c) u_y) / integral(y^2 + (z - z_c)^2)
+        polar = float(area @ (y**2 + (z - zc) ** 2))
+        turn = row(everywhere, 2, area * y) - row(everywhere, 1, area * (z - zc))
+        centre += [row(everywhere, 1, area), turn / polar]
+        # slope of the regression of u_z over y, times half the width of the foot
+        y_foot = y[section.foot]
+        tilt = width * y_foot * (y_foot[-1] / float(width @ y_foot**2))
+        foot += [row(section.foot, 1, width), row(section.foot, 2, tilt)]
     return SectionRows(
         surface=surface,
         surface_y=y[section.surface],
-        centre=row(everywhere, 2, area),
-        foot=row(section.foot, 2, width / width.sum()),
+        surface_arc=profile.running_arc(y[section.surface]),
+        centre=np.stack(centre),
+        foot=np.stack(foot),
         weights=np.repeat(area, 3)[piece.free],
         rigid=np.stack(rigid, axis=1),
     )

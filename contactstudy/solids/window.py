@@ -24,20 +24,20 @@ class WindowResponse:
 
     Plane p of the pair lies at ``x = p * thickness``, p = 0 ... 2*ns. Loads on the second
     half follow by reflection in x. A load with index j*ny + a acts on plane j, j = 0 ... ns,
-    along the outward normal of surface node a; foot loads act evenly across the foot, centre
-    loads in proportion to the section's area.
+    along the outward normal of surface node a; foot loads work on the nm mean motions of the
+    foot, centre loads are vertical, in proportion to the section's area.
 
     Attributes
     ----------
     surface : ndarray (2*ns + 1, ny, (ns + 1)*ny)
         Normal displacements of the surface nodes.
-    centre : ndarray (2*ns + 1, (ns + 1)*ny)
-        Mean section displacements.
+    centre : ndarray (2*ns + 1, nm, (ns + 1)*ny)
+        Mean motions of the sections.
     own_centre : ndarray (2, ns + 1)
         Mean displacement of a section under a centre load on it, and of the next one.
-    interfaces : ndarray (5, n, (ns + 1)*(ny + 1))
-        Displacements of the interface planes at x = -L, 0, L, 2L, 3L; the last ns + 1
-        columns belong to the foot loads.
+    interfaces : ndarray (5, n, (ns + 1)*(ny + nm))
+        Displacements of the interface planes at x = -L, 0, L, 2L, 3L; the last (ns + 1)*nm
+        columns belong to the foot loads, one motion of the foot after the other.
     """
 
     surface: Array
@@ -65,22 +65,21 @@ def window_response(piece: Slice, n_slices: int, rows: SectionRows) -> WindowRes
     """
     cell = repeat(piece, n_slices)
     beyond = repeat(cell, MARGIN)
-    n, ny = len(rows.centre), len(rows.surface_y)
+    n, ny, nm = len(rows.weights), len(rows.surface_y), len(rows.foot)
     count = n_slices + 1
     factor = BlockTridiagonal(*chain_blocks([piece] * (2 * n_slices), beyond.bb, beyond.aa))
-    loads = np.c_[rows.surface.T, rows.foot, rows.centre]
+    others = np.vstack([rows.foot, rows.centre[:1]]).T
     rhs = []
     for p in range(2 * n_slices + 1):
-        b = np.zeros((n, count * (ny + 2)))
+        b = np.zeros((n, count * (ny + nm + 1)))
         if p < count:
-            b[:, p * ny : (p + 1) * ny] = loads[:, :ny]
-            b[:, count * ny + p] = loads[:, ny]
-            b[:, count * (ny + 1) + p] = loads[:, ny + 1]
+            b[:, p * ny : (p + 1) * ny] = rows.surface.T
+            b[:, count * ny + p :: count] = others
         rhs.append(b)
     u = factor.solve(rhs)
     contact = slice(0, count * ny)
-    kept = slice(0, count * (ny + 1))
-    centre_load = count * (ny + 1) + np.arange(count)
+    kept = slice(0, count * (ny + nm))
+    centre_load = count * (ny + nm) + np.arange(count)
     # the neighbouring interfaces follow from the cells beyond: (beyond' + K_aa) u_2 = -K_ab u_3
     before = repeat(cell, MARGIN - 1)
     left = -sl.solve(before.bb + cell.aa, cell.ab @ u[0][:, kept], assume_a="pos")
@@ -89,7 +88,7 @@ def window_response(piece: Slice, n_slices: int, rows: SectionRows) -> WindowRes
         surface=np.stack([rows.surface @ x[:, contact] for x in u]),
         centre=np.stack([rows.centre @ x[:, contact] for x in u]),
         own_centre=np.array(
-            [[rows.centre @ u[p + q][:, centre_load[p]] for p in range(count)] for q in (0, 1)]
+            [[rows.centre[0] @ u[p + q][:, centre_load[p]] for p in range(count)] for q in (0, 1)]
         ),
         interfaces=np.stack([left, *(x[:, kept] for x in (u[0], u[n_slices], u[-1])), right]),
     )

@@ -12,6 +12,8 @@ SIGNALS: dict[str, tuple[str, str]] = {
     "wheel_displacement": ("m", "vertical displacement of the wheel, up"),
     "wheel_acceleration": ("m/s^2", "vertical acceleration of the wheel, up"),
     "rail_displacement": ("m", "displacement of the rail's centre line at the wheel, up"),
+    "rail_lateral": ("m", "lateral displacement of the rail's section under the wheel"),
+    "rail_roll": ("rad", "roll of the rail's section under the wheel"),
     "irregularity": ("m", "irregularity under the wheel, faded in, up"),
     "contact_area": ("m^2", "contact area"),
     "peak_pressure": ("Pa", "largest contact pressure"),

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from contactstudy.banded import Factor
 from contactstudy.contact.coupling import SurfaceCoupling
 from contactstudy.contact.points import ContactPoints, contact_points, rolling_drop
-from contactstudy.contact.press import PressCurve, press_curve, rail_matrix
+from contactstudy.contact.press import PressCurve, press_curve
 from contactstudy.contact.quadrature import Quadrature
 from contactstudy.contact.residual import ResidualFlexibility, patch_splines
 from contactstudy.contact.search import CandidateList, FacetSearch, grid_surface
@@ -280,8 +280,8 @@ def geometry_press(
     unit[patch.dofs, np.arange(len(patch.dofs))] = 1.0
     solved = factor.solve(unit)
     C = solved[patch.dofs]
-    P = rail_matrix(points, patch.x, patch.y, x)
     along, across = patch_splines(patch, points)
+    P = np.kron(along(x - patch.x[0] + points.x), across)
     residual = ResidualFlexibility(
         track, along, across, points.x, half_length, track.thickness, track.residual_period
     )
@@ -290,8 +290,8 @@ def geometry_press(
     W = residual(x).block(np.arange(len(points.gap))) + tread @ wheel.flexibility @ tread.T
     W += PH @ (0.5 * (C + C.T)) @ PH.T
     # deflection of the centre line per unit nodal force; forces push the rail down
-    reference = P @ (patch.map @ (patch.centre_map @ solved[patch.centre_dofs]))
-    reference += P @ patch.centre_residual
+    reference = P @ (patch.map @ (patch.centre_map[0] @ solved[patch.centre_dofs]))
+    reference += P @ patch.centre_residual[0]
     return press_curve(points, W, loads, penalty, reference, tolerance)
 
 

@@ -162,8 +162,7 @@ class BeamTrack(AssembledTrack):
             stiffness[free][:, free],
             keys[free],
             self.track,
-            self._pad_rows(),
-            self.direction,
+            {self.direction: self._pad_rows()},
         )
 
     def _pad_rows(self) -> list[PadRow]:

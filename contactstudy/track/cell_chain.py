@@ -9,13 +9,15 @@ from numpy.typing import NDArray
 
 from contactstudy.solids.cell import RailCell
 from contactstudy.track.model import Ends
-from contactstudy.track.supports import PadRow
+from contactstudy.track.supports import PadMotion, PadRow
 
 Array = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
 # coordinates of an interface plane that are its rigid motions, see `interface_basis`
-_AXIAL, _VERTICAL = 0, 1
+_AXIAL, _VERTICAL, _LATERAL, _ROLL = 0, 1, 3, 5
+MOTIONS: tuple[PadMotion, ...] = ("Z", "Y", "roll")
+"""Motions of the foot, in the order of `RailCell.foot_map`; the first for a half section."""
 
 
 @dataclass(frozen=True)
@@ -60,7 +62,8 @@ class CellChain:
         if self.ends == "clamped":
             return np.r_[0:m, last : last + m]
         if self.ends == "pinned":
-            return np.array([_AXIAL, _VERTICAL, last + _VERTICAL])
+            across = [_VERTICAL] if self.cell.recipe.symmetric else [_VERTICAL, _LATERAL, _ROLL]
+            return np.array([_AXIAL, *across, *(last + c for c in across)])
         return np.array([_AXIAL])
 
     @cached_property
@@ -99,15 +102,15 @@ class CellChain:
         total = sp.csr_array((values, (rows, columns)), shape=(n, n))
         return total[self.free][:, self.free]
 
-    def bed(self) -> Array:
+    def bed(self, motion: int) -> Array:
         """Matrix (nd, nd) of a uniform foundation of unit stiffness under one cell [m]."""
-        # integral of f f^T dx, f = mean displacement of the foot, linear between planes
-        f, h = self.cell.foot_map, self.thickness
+        # integral of f f^T dx, f = mean motion of the foot, linear between planes
+        f, h = self.cell.foot_map[:, motion], self.thickness
         own, crossed = f[:-1].T @ f[:-1] + f[1:].T @ f[1:], f[:-1].T @ f[1:]
         return np.asarray(h / 6 * (2 * own + crossed + f[1:].T @ f[:-1]))
 
-    def pad_row(self, first: float, last: float) -> PadRow:
-        """Average foot displacement over a footprint from X to X [m], linear between planes."""
+    def pad_row(self, first: float, last: float, motion: int) -> PadRow:
+        """Average motion of the foot over a footprint from X to X [m], linear between planes."""
         h = self.thickness
         inner = h * np.arange(np.ceil(first / h), np.floor(last / h) + 1)
         knots = np.unique(np.clip(np.r_[first, inner, last], first, last))
@@ -119,7 +122,7 @@ class CellChain:
         row = np.zeros(self.n_bare)
         for c, i, s, w in zip(*self.locate(knots), weight, strict=True):
             start = c * self.step
-            f = (1 - s) * self.cell.foot_map[i] + s * self.cell.foot_map[i + 1]
+            f = (1 - s) * self.cell.foot_map[i, motion] + s * self.cell.foot_map[i + 1, motion]
             row[start : start + len(f)] += w * f
         # equal pads get equal rows bit for bit, so that products with them can share values
         row = np.round(row, 12)

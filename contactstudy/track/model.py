@@ -167,6 +167,15 @@ class WinklerFoundation:
             damping = damping if self.lateral_damping is None else self.lateral_damping
         return stiffness, damping
 
+    def foot_values(self) -> tuple[tuple[float, float], ...]:
+        """Stiffness and damping per length against vertical, lateral and roll motion of a foot.
+
+        Roll is the rise of the foot's edge: springs spread evenly over the width b give
+        ``integral of (k/b) (2y/b)^2 dy = k/3``.
+        """
+        k, c = self.values("Z")
+        return (k, c), self.values("Y"), (k / 3, c / 3)
+
 
 Support = DiscreteSupports | WinklerFoundation | None
 

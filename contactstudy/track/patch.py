@@ -28,14 +28,15 @@ class SurfacePatch:
         Flexibility that the track's dofs leave out [m/N].
     x : ndarray (nx,)
         Positions on the track [m].
-    y : ndarray (ny,)
-        Lateral positions [m].
+    y, arc : ndarray (ny,)
+        Lateral positions in the rail's axes, and their arc lengths from the crown [m].
     centre_dofs : ndarray (nc,)
         Dofs of the track for `centre_map`.
-    centre_map : ndarray (nc,)
-        Deflection of the rail's centre line at the position asked for.
-    centre_residual : ndarray (nodes,)
-        What nodal forces add to that deflection [m/N].
+    centre_map : ndarray (nm, nc)
+        Motion of the rail's centre line at the position asked for: vertical displacement [m];
+        for a whole section (nm = 3) also lateral displacement [m] and roll [rad].
+    centre_residual : ndarray (nm, nodes)
+        What nodal forces add to that motion [m/N, rad/N].
     """
 
     key: int
@@ -44,6 +45,7 @@ class SurfacePatch:
     residual: Array
     x: Array
     y: Array
+    arc: Array
     centre_dofs: NDArray[np.int64]
     centre_map: Array
     centre_residual: Array

@@ -10,7 +10,7 @@ from contactstudy.exceptions import InputError
 from contactstudy.solids.cell import RailCell, section_of
 from contactstudy.solids.pair import CellPair, cell_pair
 from contactstudy.solids.recipe import CellRecipe
-from contactstudy.track.cell_chain import CellChain
+from contactstudy.track.cell_chain import MOTIONS, CellChain
 from contactstudy.track.discrete import AssembledTrack
 from contactstudy.track.model import DiscreteSupports, Rail, Track, WinklerFoundation
 from contactstudy.track.patch import SectionResponse, SurfacePatch
@@ -68,8 +68,6 @@ class SolidTrack(AssembledTrack):
             )
         if self.n_cells < 4:
             problems.append(f"track length = {self.track.length} m: must hold at least 4 cells")
-        if not recipe.symmetric:
-            problems.append("symmetric = False: a track needs the symmetric half section")
         same = (
             (rail.profile_name, recipe.profile, "profile"),
             (rail.youngs_modulus, recipe.youngs_modulus, "youngs_modulus in Pa"),
@@ -116,7 +114,7 @@ class SolidTrack(AssembledTrack):
             weight 0.
         """
         cell, slices, t = self._chain.locate(np.atleast_1d(np.asarray(x, dtype=float)))
-        rows = self.cell.centre_map
+        rows = self.cell.centre_map[:, 0]
         weights = (1 - t)[:, None] * rows[slices] + t[:, None] * rows[slices + 1]
         return self._placed(cell * self._chain.step, weights)
 
@@ -169,9 +167,10 @@ class SolidTrack(AssembledTrack):
             residual=maps.residual[planes, :, planes].reshape(nodes, nodes),
             x=pair * self.recipe.length + h * np.arange(planes.start, planes.stop, dtype=float),
             y=self.cell.surface_y,
+            arc=self.cell.surface_arc,
             centre_dofs=dofs,
             centre_map=np.where(held, 0.0, mean),
-            centre_residual=mean_residual[planes].ravel(),
+            centre_residual=mean_residual[:, planes].reshape(len(mean), -1),
         )
 
     def section(self, x: float, half_length: float) -> SectionResponse:
@@ -256,14 +255,18 @@ class SolidTrack(AssembledTrack):
     def _assembled(self) -> SupportedRail:
         chain, stiffness, damping = self._chain, self.cell.stiffness, None
         if isinstance(self.track.support, WinklerFoundation):
-            k, c = self.track.support.values("Z")
-            bed = chain.bed()
-            stiffness, damping = stiffness + k * bed, chain.matrix(c * bed)
+            damping = np.zeros_like(stiffness)
+            beds = [chain.bed(i) for i in range(self.cell.foot_map.shape[1])]
+            for bed, (k, c) in zip(beds, self.track.support.foot_values(), strict=False):
+                stiffness, damping = stiffness + k * bed, damping + c * bed
         return add_supports(
             chain.matrix(self.cell.mass),
-            damping,
+            None if damping is None else chain.matrix(damping),
             chain.matrix(stiffness),
             chain.keys,
             self.track,
-            [chain.pad_row(first, last) for first, last in self.track.pad_footprints],
+            {
+                motion: [chain.pad_row(*ends, i) for ends in self.track.pad_footprints]
+                for i, motion in enumerate(MOTIONS[: self.cell.foot_map.shape[1]])
+            },
         )

@@ -5,8 +5,9 @@ footprint, a row of weights over a few rail dofs. So beam and solid rails share 
 All dofs are then ordered by their position along the track, which keeps the matrices banded.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 import scipy.sparse as sp
@@ -14,10 +15,13 @@ import scipy.sparse as sp
 from contactstudy.track.hermite import BeamElement
 from contactstudy.track.model import Direction, DiscreteSupports, Slab, Track
 
+PadMotion = Literal["Z", "Y", "roll"]
+"""What a pad resists: vertical, lateral, and the rise of the foot's edge by roll, all in m."""
+
 
 @dataclass(frozen=True)
 class PadRow:
-    """Average rail displacement over one pad's footprint: weights @ u[dofs]."""
+    """Average motion of the rail's foot over one pad's footprint: weights @ u[dofs]."""
 
     dofs: np.ndarray
     weights: np.ndarray
@@ -47,8 +51,7 @@ def add_supports(
     stiffness: sp.sparray,
     rail_keys: np.ndarray,
     track: Track,
-    pad_rows: Sequence[PadRow],
-    direction: Direction = "Z",
+    pads: Mapping[PadMotion, Sequence[PadRow]],
 ) -> SupportedRail:
     """Assemble pads, half sleepers and what is below them into the rail's matrices.
 
@@ -61,10 +64,9 @@ def add_supports(
         (n_rail,), position X of each rail dof, by which all dofs are ordered (ties keep the
         given order, support dofs after rail dofs).
     track : Track
-    pad_rows : sequence of PadRow
-        One for each of `track.support_positions`; empty when there are none.
-    direction : {"Z", "Y"}
-        Which of the support's values apply.
+    pads : mapping of {"Z", "Y", "roll"} to sequence of PadRow
+        Motions of the foot that the pads resist, one row for each of
+        `track.support_positions`; empty when there are none.
 
     Returns
     -------
@@ -72,64 +74,89 @@ def add_supports(
     """
     n_rail = mass.shape[0]
     support = track.support
-    if not isinstance(support, DiscreteSupports):
-        layer_m = layer_c = layer_k = pads_c = pads_k = sp.csr_array((n_rail, n_rail))
-        n, keys = n_rail, np.asarray(rail_keys, dtype=float)
-    else:
-        vertical = direction == "Z"
-        pad_k = support.pad_stiffness if vertical else support.lateral_pad_stiffness
-        pad_c = support.pad_damping if vertical else support.lateral_pad_damping
-        seats, layer_keys, layer = _layer(support, track, direction)
-        n = n_rail + len(layer_keys)
-        keys = np.concatenate((rail_keys, layer_keys))
-        # pad elongation = average rail displacement - displacement of the seat: d = G u
-        G = _pad_matrix(pad_rows, n_rail + seats, n)
-        pads = sp.csr_array(G.T @ G)
-        pads_k, pads_c = pad_k * pads, pad_c * pads
-        layer_m, layer_c, layer_k = (
-            sp.block_diag((sp.csr_array((n_rail, n_rail)), part)) for part in layer
-        )
+    parts = (
+        [_pads(support, track, motion, rows) for motion, rows in pads.items()]
+        if isinstance(support, DiscreteSupports)
+        else []
+    )
+    keys = np.concatenate([np.asarray(rail_keys, dtype=float), *(p.keys for p in parts)])
+    n, begin = len(keys), n_rail
     order = np.argsort(keys, kind="stable")
     place = np.empty(n, dtype=np.int64)
     place[order] = np.arange(n)
+    totals = [_embedded(part, n, 0) for part in (mass, damping, stiffness)]
+    for part in parts:
+        for i, below in enumerate((part.mass, part.damping, part.stiffness)):
+            totals[i] = totals[i] + _embedded(below, n, begin)
+        # pad elongation = motion of the rail's foot - displacement of the seat: d = G u
+        G = _pad_matrix(part.rows, None if part.seats is None else begin + part.seats, n)
+        squares = sp.csr_array(G.T @ G)
+        totals[1] = totals[1] + part.pad_damping * squares
+        totals[2] = totals[2] + part.pad_stiffness * squares
+        begin += len(part.keys)
 
-    def assembled(rail: sp.sparray | None, *parts: sp.sparray) -> sp.csr_array:
-        total = sp.csr_array((n, n))
-        if rail is not None:
-            rail = sp.coo_array(rail)
-            total = sp.csr_array((rail.data, rail.coords), shape=(n, n))
-        for part in parts:
-            total = total + part
+    def ordered(total: sp.csr_array) -> sp.csr_array:
         coo = sp.coo_array(total)
         rows, columns = coo.coords
-        ordered = sp.csr_array((coo.data, (place[rows], place[columns])), shape=(n, n))
-        ordered.eliminate_zeros()
-        ordered.sort_indices()
-        return ordered
+        result = sp.csr_array((coo.data, (place[rows], place[columns])), shape=(n, n))
+        result.eliminate_zeros()
+        result.sort_indices()
+        return result
 
-    return SupportedRail(
-        mass=assembled(mass, layer_m),
-        damping=assembled(damping, layer_c, pads_c),
-        stiffness=assembled(stiffness, layer_k, pads_k),
-        rail_dofs=place[:n_rail],
-    )
+    M, C, K = (ordered(total) for total in totals)
+    return SupportedRail(mass=M, damping=C, stiffness=K, rail_dofs=place[:n_rail])
 
 
-def _pad_matrix(pad_rows: Sequence[PadRow], seats: np.ndarray, n: int) -> sp.csr_array:
+@dataclass(frozen=True)
+class _Pads:
+    """Pads in one motion of the foot, and what they stand on."""
+
+    rows: Sequence[PadRow]
+    pad_stiffness: float
+    pad_damping: float
+    seats: np.ndarray | None
+    keys: np.ndarray
+    mass: sp.csr_array
+    damping: sp.csr_array
+    stiffness: sp.csr_array
+
+
+def _pads(
+    support: DiscreteSupports, track: Track, motion: PadMotion, rows: Sequence[PadRow]
+) -> _Pads:
+    k, c = support.pad_stiffness, support.pad_damping
+    if motion == "roll":
+        # springs k/b a width over the foot's width b, their elongation r 2y/b for the edge's
+        # rise r: integral of (k/b) (2y/b)^2 dy = k/3. The sleeper does not roll.
+        none = sp.csr_array((0, 0))
+        return _Pads(rows, k / 3, c / 3, None, np.empty(0), none, none, none)
+    if motion == "Y":
+        k, c = support.lateral_pad_stiffness, support.lateral_pad_damping
+    seats, keys, layer = _layer(support, track, motion)
+    return _Pads(rows, k, c, seats, keys, *layer)
+
+
+def _embedded(part: sp.sparray | None, n: int, begin: int) -> sp.csr_array:
+    """A square matrix as the diagonal block from `begin` on of an (n, n) one."""
+    if part is None:
+        return sp.csr_array((n, n))
+    coo = sp.coo_array(part)
+    rows, columns = coo.coords
+    return sp.csr_array((coo.data, (rows + begin, columns + begin)), shape=(n, n))
+
+
+def _pad_matrix(pad_rows: Sequence[PadRow], seats: np.ndarray | None, n: int) -> sp.csr_array:
     """Elongation of every pad as a matrix over all dofs, (n_supports, n)."""
-    if len(pad_rows) != len(seats):
-        raise ValueError(f"{len(pad_rows)} pad rows for {len(seats)} supports")
+    count = len(pad_rows)
     rows = np.concatenate([np.full(len(pad.dofs), j) for j, pad in enumerate(pad_rows)])
     columns = np.concatenate([pad.dofs for pad in pad_rows])
     values = np.concatenate([pad.weights for pad in pad_rows])
-    n_seats = len(seats)
-    return sp.csr_array(
-        (
-            np.concatenate((values, np.full(n_seats, -1.0))),
-            (np.concatenate((rows, np.arange(n_seats))), np.concatenate((columns, seats))),
-        ),
-        shape=(n_seats, n),
-    )
+    if seats is not None:
+        if count != len(seats):
+            raise ValueError(f"{count} pad rows for {len(seats)} supports")
+        rows, columns = np.r_[rows, np.arange(count)], np.r_[columns, seats]
+        values = np.r_[values, np.full(count, -1.0)]
+    return sp.csr_array((values, (rows, columns)), shape=(count, n))
 
 
 def _layer(

@@ -17,6 +17,7 @@ from contactstudy.solids.extrusion import ExtrudedSlice
 from contactstudy.solids.recipe import CellRecipe
 from contactstudy.solids.section_mesh import SectionMesh
 from contactstudy.solids.section_rows import SectionRows
+from contactstudy.track.cell_chain import MOTIONS
 from contactstudy.track.discrete import AssembledTrack
 from contactstudy.track.model import Track, WinklerFoundation
 from contactstudy.track.patch import SectionResponse, SurfacePatch
@@ -77,7 +78,7 @@ class UnreducedTrack(AssembledTrack):
     def rail_rows(self, x: Array) -> tuple[IntArray, Array]:
         """Rows of the section's mean deflection at X, as `SolidTrack.rail_rows`."""
         index, t = self._locate(np.atleast_1d(np.asarray(x, dtype=float)))
-        centre = self._rows.centre
+        centre = self._rows.centre[0]
         used = np.flatnonzero(centre)
         dofs = self._place[index[:, None] * self._n + np.r_[used, self._n + used]]
         weights = np.hstack([(1 - t)[:, None] * centre[used], t[:, None] * centre[used]])
@@ -101,8 +102,8 @@ class UnreducedTrack(AssembledTrack):
         planes = np.arange(first, last + 1)
         rows = np.asarray(np.kron(np.eye(len(planes)), normal[:, used]), dtype=float)
         (at,), (t,) = self._locate(np.array([x]))
-        mean_dofs = np.flatnonzero(self._rows.centre)
-        centre = self._rows.centre[mean_dofs]
+        mean_dofs = np.flatnonzero(self._rows.centre.any(axis=0))
+        centre = self._rows.centre[:, mean_dofs]
         return SurfacePatch(
             key=first,
             dofs=self._place[(planes[:, None] * n + used).ravel()],
@@ -110,9 +111,10 @@ class UnreducedTrack(AssembledTrack):
             residual=np.zeros((len(rows),) * 2),
             x=np.asarray(h * planes, dtype=float),
             y=self.surface_y,
+            arc=self._rows.surface_arc,
             centre_dofs=self._place[np.r_[at * n + mean_dofs, (at + 1) * n + mean_dofs]],
-            centre_map=np.r_[(1 - t) * centre, t * centre],
-            centre_residual=np.zeros(len(rows)),
+            centre_map=np.hstack([(1 - t) * centre, t * centre]),
+            centre_residual=np.zeros((len(centre), len(rows))),
         )
 
     def section(self, x: float, half_length: float) -> SectionResponse:
@@ -147,7 +149,7 @@ class UnreducedTrack(AssembledTrack):
     @property
     def _n(self) -> int:
         """Free dofs of a plane."""
-        return len(self._rows.centre)
+        return len(self._rows.weights)
 
     def _locate(self, x: Array) -> tuple[IntArray, Array]:
         scaled = x / self.thickness
@@ -170,31 +172,35 @@ class UnreducedTrack(AssembledTrack):
         if isinstance(self.track.support, WinklerFoundation):
             # integral of f f^T dx with f linear between planes
             h = self.thickness
-            f = sp.csr_array(rows.foot[:, None] @ rows.foot[None, :])
             weights = sp.diags_array(
                 [np.full(inner, 2 * h / 3), np.full(inner - 1, h / 6), np.full(inner - 1, h / 6)],
                 offsets=[0, 1, -1],
             )
-            bed = sp.csr_array(sp.kron(weights, f))
-            k, c = self.track.support.values("Z")
-            stiffness, damping = stiffness + k * bed, c * bed
+            damping = sp.csr_array(stiffness.shape)
+            for foot, (k, c) in zip(rows.foot, self.track.support.foot_values(), strict=False):
+                f = sp.csr_array(foot[:, None] @ foot[None, :])
+                bed = sp.csr_array(sp.kron(weights, f))
+                stiffness, damping = stiffness + k * bed, damping + c * bed
         return add_supports(
             _chain(piece.mass, inner),
             damping,
             stiffness,
             np.repeat(self.thickness * np.arange(1, inner + 1), n),
             self.track,
-            [self._pad_row(*ends) for ends in self.track.pad_footprints],
+            {
+                motion: [self._pad_row(*ends, foot) for ends in self.track.pad_footprints]
+                for motion, foot in zip(MOTIONS, rows.foot, strict=False)
+            },
         )
 
-    def _pad_row(self, first: float, last: float) -> PadRow:
-        """Average foot displacement over a footprint, linear between the planes."""
+    def _pad_row(self, first: float, last: float, foot: Array) -> PadRow:
+        """Average motion of the foot over a footprint, linear between the planes."""
         # brute force: 4000 midpoints, so that this check shares no integration with SolidTrack
         x = first + (np.arange(4000) + 0.5) / 4000 * (last - first)
         index, t = self._locate(x)
         planes = np.bincount(index, 1 - t, self.n_slices + 1) / len(x)
         planes += np.bincount(index + 1, t, self.n_slices + 1) / len(x)
-        row = (planes[1:-1, None] * self._rows.foot).ravel()
+        row = (planes[1:-1, None] * foot).ravel()
         used = np.flatnonzero(row)
         return PadRow(used, row[used])
 

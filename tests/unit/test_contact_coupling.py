@@ -47,9 +47,10 @@ class FakeTrack:
             residual=half_space(nodes_x, nodes_y),
             x=nodes_x,
             y=nodes_y,
+            arc=rail_profile().running_arc(nodes_y),
             centre_dofs=np.arange(N_TRACK),
-            centre_map=np.ones(N_TRACK),
-            centre_residual=np.zeros(X.size),
+            centre_map=np.ones((1, N_TRACK)),
+            centre_residual=np.zeros((1, X.size)),
         )
 
 

@@ -32,11 +32,11 @@ def flexibility(track, factor, x):
     E = np.zeros((track.n_dofs, len(p.map) + 1))
     for column, row in enumerate(p.map):
         np.add.at(E[:, column], p.dofs, row)
-    np.add.at(E[:, -1], p.centre_dofs, p.centre_map)
+    np.add.at(E[:, -1], p.centre_dofs, p.centre_map[0])
     G = E.T @ factor.solve(E)
     G[:-1, :-1] += p.residual
-    G[-1, :-1] += p.centre_residual
-    G[:-1, -1] += p.centre_residual
+    G[-1, :-1] += p.centre_residual[0]
+    G[:-1, -1] += p.centre_residual[0]
     return G
 
 
