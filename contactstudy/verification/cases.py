@@ -53,7 +53,12 @@ class Case:
 
 
 #: All cases. To add one: a function in a module of this package, and a line here.
-CASES: tuple[Case, ...] = ()
+CASES: tuple[Case, ...] = (
+    Case("hertz_line", "hertz_line:line"),
+    Case("hertz_sphere", "hertz:sphere"),
+    Case("hertz_ellipses", "hertz:ellipses", slow=True),
+    Case("ssnv104", "hertz:ssnv104"),
+)
 
 
 def select(names: tuple[str, ...] = ()) -> tuple[Case, ...]:
