@@ -1,19 +1,25 @@
-"""One slice of a solid of revolution, between two planes through its axis."""
+"""One slice of a solid of revolution, between two planes through its axis.
+
+Components of a node in a plane are those of the plane's own axes: (radial outwards, y,
+tangential in the sense of growing angle), so that the matrices of a slice depend on the angle
+between its planes only.
+"""
 
 import numpy as np
+import scipy.sparse as sp
 from numpy.typing import NDArray
 
 from contactstudy.solids.chain import Slice
-from contactstudy.solids.hexahedron import hex_stiffness
+from contactstudy.solids.hexahedron import hex_mass, hex_stiffness
 from contactstudy.solids.wheel_section import WheelSection
 
 Array = NDArray[np.float64]
 
 
-def ring_slice(
+def slice_stiffness(
     section: WheelSection, angle: float, youngs_modulus: float, poisson_ratio: float
-) -> Slice:
-    """Stiffness of the slice between two planes through the axis, of both halves y.
+) -> sp.csr_array:
+    """Stiffness of a slice on the dofs of its two planes, one after the other.
 
     Parameters
     ----------
@@ -26,32 +32,51 @@ def ring_slice(
 
     Returns
     -------
-    Slice
-        Blocks (3n, 3n) in N/m. Components of a node in either plane are those of that plane's
-        own axes: (radial outwards, y, tangential in the sense of growing angle), so that the
-        blocks depend on the angle between the planes only.
+    csr_array (6n, 6n)
+        In N/m; of both halves y where the section is symmetric.
+    """
+    K = hex_stiffness(_corners(section, angle), youngs_modulus, poisson_ratio)
+    return _assembled(section, angle, K)
+
+
+def slice_mass(section: WheelSection, angle: float, density: float) -> sp.csr_array:
+    """Consistent mass of a slice in kg, as `slice_stiffness`; `density` in kg/m^3."""
+    return _assembled(section, angle, hex_mass(_corners(section, angle), density))
+
+
+def ring_slice(
+    section: WheelSection, angle: float, youngs_modulus: float, poisson_ratio: float
+) -> Slice:
+    """Blocks (3n, 3n) of `slice_stiffness`."""
+    K = slice_stiffness(section, angle, youngs_modulus, poisson_ratio)
+    n = K.shape[0] // 2
+    return Slice(K[:n, :n].toarray(), K[:n, n:].toarray(), K[n:, n:].toarray())
+
+
+def _corners(section: WheelSection, angle: float) -> Array:
+    """Corners (m, 8, 3) of the elements in the first plane's axes (y, radial, tangential).
+
+    Quads turn counter-clockwise in (y, radial), so the kernel wants this order.
     """
     y, rho = section.nodes.T
-    n = len(y)
+    planes = [
+        np.stack([y, rho * np.cos(theta), rho * np.sin(theta)], axis=1) for theta in (0.0, angle)
+    ]
+    return np.concatenate([plane[section.quads] for plane in planes], axis=1)
 
-    def plane(theta: float) -> Array:
-        # first plane's axes: radial, y, tangential
-        return np.stack([rho * np.cos(theta), y, rho * np.sin(theta)], axis=1)
 
-    nodes = np.concatenate([plane(0.0), plane(angle)])
+def _assembled(section: WheelSection, angle: float, matrices: Array) -> sp.csr_array:
+    n = len(section.nodes)
     elements = np.concatenate([section.quads, section.quads + n], axis=1)
-    # quads turn counter-clockwise in (y, radial), so the kernel wants (y, radial, tangential)
-    K = hex_stiffness(nodes[elements][:, :, [1, 0, 2]], youngs_modulus, poisson_ratio)
-    swap = (3 * np.arange(8)[:, None] + np.array([1, 0, 2])).ravel()
-    K = K[:, swap[:, None], swap]
-    dofs = (3 * elements[:, :, None] + np.arange(3)).reshape(-1, 24)
-    A = np.zeros((6 * n, 6 * n))
-    np.add.at(A, (dofs[:, :, None], dofs[:, None, :]), 2.0 * K)
     c, s = np.cos(angle), np.sin(angle)
-    # u (first plane's axes) = Q u' (second plane's axes)
-    Q = np.array([[c, 0, -s], [0, 1, 0], [s, 0, c]])
-    aa, ab, bb = A[: 3 * n, : 3 * n], A[: 3 * n, 3 * n :], A[3 * n :, 3 * n :]
-    ab = (ab.reshape(3 * n, n, 3) @ Q).reshape(3 * n, 3 * n)
-    bb = (bb.reshape(3 * n, n, 3) @ Q).reshape(3 * n, 3 * n)
-    bb = np.einsum("ki,akb->aib", Q, bb.reshape(n, 3, 3 * n)).reshape(3 * n, 3 * n)
-    return Slice(aa, ab, bb)
+    # (y, radial, tangential) of the first plane from (radial, y, tangential) of the second
+    second = np.array([[0.0, 1.0, 0.0], [c, 0.0, -s], [s, 0.0, c]])
+    first = np.array([[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+    T = np.zeros((24, 24))
+    for node in range(8):
+        T[3 * node : 3 * node + 3, 3 * node : 3 * node + 3] = first if node < 4 else second
+    values = (2.0 if section.symmetric else 1.0) * (T.T @ matrices @ T)
+    dofs = (3 * elements[:, :, None] + np.arange(3)).reshape(-1, 24)
+    rows = np.repeat(dofs, 24, axis=1).ravel()
+    columns = np.tile(dofs, (1, 24)).ravel()
+    return sp.csr_array(sp.coo_array((values.ravel(), (rows, columns)), shape=(6 * n, 6 * n)))

@@ -1,126 +1,53 @@
-"""Quasi-static elastic wheel: flexibility of its tread nodes in the contact zone.
+"""Elastic wheel: flexibility of its tread nodes in the contact zone.
 
 The wheel is a solid of revolution, meshed by slices between planes through its axis. It does
 not turn: an axisymmetric wheel looks the same at every angle, so only its bottom is meshed
 finely. The bore is held: displacements are relative to the hub. The mirror symmetry about the
 vertical plane x = 0 is used: each load is the sum of a symmetric and an antisymmetric one on
-half the ring, and both are solved by block elimination over the angle. All inertia of the
-wheel is in the vehicle model's wheel mass.
+half the ring, and both are solved by block elimination over the angle.
+
+By itself this wheel is quasi-static, with all its inertia in the vehicle model's wheel mass;
+its elastic modes are in `wheel_modes`.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from contactstudy.exceptions import InputError
+from contactstudy.profiles.curve import wheel_curve
 from contactstudy.profiles.rail import rail_profile
-from contactstudy.profiles.wheel import wheel_profile
-from contactstudy.solids.chain import BlockTridiagonal, Slice, chain_blocks
+from contactstudy.solids.chain import BlockTridiagonal, Slice, repeat
 from contactstudy.solids.ring import ring_slice
-from contactstudy.solids.wheel_section import (
-    WheelDimensions,
-    WheelSection,
-    fine_lines,
-    wheel_section_mesh,
-)
+from contactstudy.solids.wheel_recipe import WheelRecipe
+from contactstudy.solids.wheel_section import WheelSection
+
+__all__ = ["WheelFlexibility", "WheelRecipe", "elastic_wheel", "rigid_wheel"]
 
 Array = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
 
 @dataclass(frozen=True)
-class WheelRecipe:
-    """What an elastic wheel is made from; two equal recipes give equal wheels.
-
-    Attributes
-    ----------
-    profile : str
-        Wheel profile; even in y.
-    rail_profile : str
-        Gives the direction of the contact forces: its outward normal at each y.
-    dimensions : WheelDimensions
-        Of the section.
-    size : float
-        Element size at the tread in m (lateral, depth and along the circumference).
-    contact_half_length, contact_half_width : float
-        Extent of the contact zone along and across the rail on each side in m.
-    youngs_modulus, poisson_ratio : float
-        Material, E in Pa.
-    """
-
-    profile: str = "cylinder"
-    rail_profile: str = "60E1"
-    dimensions: WheelDimensions = field(default_factory=WheelDimensions)
-    size: float = 0.002
-    contact_half_length: float = 0.012
-    contact_half_width: float = 0.008
-    youngs_modulus: float = 210e9
-    poisson_ratio: float = 0.3
-
-    def __post_init__(self) -> None:
-        """Refuse what cannot be meshed; all problems at once."""
-        problems = []
-        if not 0 < self.size <= 0.008:
-            problems.append(f"wheel size = {self.size} m: must be above 0 and at most 0.008 m")
-        for name, value in (
-            ("contact_half_length", self.contact_half_length),
-            ("contact_half_width", self.contact_half_width),
-        ):
-            if not self.size <= value <= 0.04:
-                problems.append(
-                    f"wheel {name} = {value} m: must be at least the size and at most 0.04 m"
-                )
-        if problems:
-            raise InputError(problems)
-
-    @property
-    def angles(self) -> Array:
-        """Angles of the planes from the bottom (0) to the top (pi) in rad.
-
-        Equal arcs of about `size` in the contact zone, then steps that grow by half each time
-        up to 12 degrees.
-        """
-        R = self.dimensions.radius
-        n = max(2, round(self.contact_half_length / self.size))
-        fine = self.size / R * np.arange(n + 1)
-        steps: list[float] = []
-        while fine[-1] + sum(steps) < np.pi:
-            steps.append(min(self.size / R * 1.5 ** (len(steps) + 1), np.pi / 15))
-        coarse = np.cumsum(steps) * (np.pi - fine[-1]) / sum(steps)
-        return np.concatenate([fine, fine[-1] + coarse])
-
-    @property
-    def x(self) -> Array:
-        """Grid lines of the contact zone along the rail, symmetric about 0, in m."""
-        n = max(2, round(self.contact_half_length / self.size))
-        right = self.dimensions.radius * np.sin(self.angles[: n + 1])
-        return np.concatenate([-right[:0:-1], right])
-
-    @property
-    def y(self) -> Array:
-        """Grid lines of the contact zone across the rail from 0 in m."""
-        return fine_lines(self.contact_half_width, self.size)
-
-
-@dataclass(frozen=True)
 class WheelFlexibility:
     """Elastic wheel as the contact sees it.
 
-    Node ``ix*len(y) + iy`` of the tread lies at ``(x[ix], y[iy])``. A nodal force is the total
-    of the node and its mirror image about y = 0; forces and displacements are along the rail's
-    outward normal (upwards).
+    Node ``ix*len(y) + iy`` of the tread lies at ``(x[ix], y[iy])``. Forces and displacements are
+    along the contact normal, positive into the wheel (upwards): the rail's outward normal on a
+    symmetric wheel, the wheel's own inward normal in the plane (y, z) on a whole one. On a
+    symmetric wheel a nodal force is the total of the node and its mirror image about y = 0.
 
     Attributes
     ----------
     recipe : WheelRecipe
         What it was made from.
     x, y : ndarray (nx,), (ny,)
-        Grid lines in m.
+        Grid lines in m; y as `WheelRecipe.y`, an arc length on a whole wheel.
     flexibility : ndarray (n, n)
         Displacement relative to the hub in m/N.
     section_nodes : ndarray (k, 2)
-        Half section in the plane x = 0: y and the height z above the lowest point, in m.
+        Section in the plane x = 0: y and the height z above the lowest point of the tape
+        circle, in m; half of it where the wheel is symmetric.
     section_quads : ndarray of int (m, 4)
         Its quadrilaterals.
     section_response : ndarray (k, 2, n)
@@ -138,7 +65,7 @@ class WheelFlexibility:
 
 def rigid_wheel(recipe: WheelRecipe) -> WheelFlexibility:
     """Wheel with the recipe's tread grid that does not deform."""
-    section = _section(recipe)
+    section = recipe.section()
     n = len(recipe.x) * len(recipe.y)
     return WheelFlexibility(
         recipe,
@@ -163,45 +90,58 @@ def elastic_wheel(recipe: WheelRecipe) -> WheelFlexibility:
     -------
     WheelFlexibility
     """
-    section = _section(recipe)
+    section = recipe.section()
     angles = recipe.angles
+    steps = np.diff(angles)
+    n_near = len(steps) - recipe.n_far
+    held = held_dofs(section)
     pieces: dict[float, Slice] = {}
-    slices = []
-    for step in np.diff(angles):
+    for step in steps:
         key = round(float(step), 12)
         if key not in pieces:
-            pieces[key] = ring_slice(section, key, recipe.youngs_modulus, recipe.poisson_ratio)
-        slices.append(pieces[key])
-    diagonal, upper = chain_blocks(slices)
-    n_loaded = len(recipe.x) // 2 + 1
-    loads = _normal_loads(recipe, section, angles[:n_loaded])
-    ny, n = len(section.tread), len(diagonal[0])
+            whole = ring_slice(section, key, recipe.youngs_modulus, recipe.poisson_ratio)
+            pieces[key] = _without(whole, ~held)
+    near = [pieces[round(float(step), 12)] for step in steps[:n_near]]
+    # the arc over the top, from the last of the near planes to its mirror image
+    far = repeat(pieces[round(float(steps[-1]), 12)], 2 * recipe.n_far)
+    loads = [
+        load[:, ~held] for load in normal_loads(recipe, section, angles[: len(recipe.x) // 2 + 1])
+    ]
+    n_loaded, ny, n = len(loads), len(section.tread), int(np.count_nonzero(~held))
+    mirror = np.tile([1.0, 1.0, -1.0], len(section.nodes))[~held]
     results = []
     for symmetric in (True, False):
-        free = [_free(section, i in (0, len(angles) - 1), symmetric) for i in range(len(angles))]
-        # from the top down, so that the loaded planes are eliminated last
-        order = range(len(angles) - 1, -1, -1)
-        factor = BlockTridiagonal(
-            [diagonal[i][np.ix_(free[i], free[i])] for i in order],
-            [upper[i][np.ix_(free[i], free[i + 1])].T for i in range(len(angles) - 2, -1, -1)],
+        # displacements of the mirror image: the tangential ones change sign, or all others do
+        sign = mirror if symmetric else -mirror
+        top = 0.5 * (
+            far.aa + far.ab * sign + sign[:, None] * far.ab.T + sign[:, None] * far.bb * sign
         )
+        moving = np.flatnonzero(sign > 0)  # in the plane of symmetry itself
+        diagonal = [near[0].aa[np.ix_(moving, moving)]]
+        diagonal += [near[i - 1].bb + near[i].aa for i in range(1, n_near)]
+        diagonal.append(near[-1].bb + top)
+        upper = [near[0].ab[moving]] + [piece.ab for piece in near[1:]]
+        # from the top down, so that the loaded planes are eliminated last
+        factor = BlockTridiagonal(diagonal[::-1], [ab.T for ab in upper[::-1]])
         rhs = []
-        for i in order:
-            b = np.zeros((len(free[i]), n_loaded * ny))
+        for i in range(n_near + 1):
+            b = np.zeros((n, n_loaded * ny))
             if i < n_loaded:
                 # half of the load belongs to this symmetry
-                b[:, i * ny : (i + 1) * ny] = 0.5 * loads[i][:, free[i]].T
-            rhs.append(b)
-        solution = factor.solve(rhs)[::-1]
+                b[:, i * ny : (i + 1) * ny] = 0.5 * loads[i].T
+            rhs.append(b if i else b[moving])
+        solution = factor.solve(rhs[::-1])[::-1]
         u = np.zeros((n_loaded, n, n_loaded * ny))
-        for i in range(n_loaded):
-            u[i][free[i]] = solution[i]
+        u[0, moving] = solution[0]
+        u[1:] = solution[1:n_loaded]
         results.append(u)
     even, odd = (np.concatenate([loads[i] @ u[i] for i in range(n_loaded)]) for u in results)
     F = _unfold(even, odd, n_loaded, ny)
     # plane x = 0: only the symmetric part moves in y and z; components there are
-    # (radial outwards = down, y, tangential), see `ring_slice`
-    bottom = results[0][0].reshape(len(section.nodes), 3, n_loaded, ny)
+    # (radial outwards = down, y, tangential), see `ring`
+    bottom = np.zeros((3 * len(section.nodes), n_loaded * ny))
+    bottom[~held] = results[0][0]
+    bottom = bottom.reshape(len(section.nodes), 3, n_loaded, ny)
     response = np.stack([bottom[:, 1], -bottom[:, 0]], axis=1)
     response = np.concatenate([response[:, :, :0:-1], response], axis=2)
     return WheelFlexibility(
@@ -215,10 +155,33 @@ def elastic_wheel(recipe: WheelRecipe) -> WheelFlexibility:
     )
 
 
-def _section(recipe: WheelRecipe) -> WheelSection:
-    return wheel_section_mesh(
-        recipe.dimensions, wheel_profile(recipe.profile), recipe.size, recipe.contact_half_width
-    )
+def held_dofs(section: WheelSection) -> NDArray[np.bool_]:
+    """Degrees of freedom (3n,) of a plane that the hub and the symmetry in y hold."""
+    held = np.zeros((len(section.nodes), 3), dtype=bool)
+    held[section.bore] = True
+    held[section.plane_of_symmetry, 1] = True
+    return held.ravel()
+
+
+def normal_loads(recipe: WheelRecipe, section: WheelSection, angles: Array) -> list[Array]:
+    """Unit forces along the contact normal at the tread nodes, (ny, 3n) a plane."""
+    if recipe.symmetric:
+        y = section.nodes[section.tread, 0]
+        slope = np.asarray(rail_profile(recipe.rail_profile).running_slope(y))
+        normal_z = 1 / np.sqrt(1 + slope**2)
+        normal_y = -slope * normal_z
+    else:
+        normal_y, normal_z = -wheel_curve(recipe.profile).normal(recipe.y).T
+    rows = np.arange(len(section.tread))
+    loads = []
+    for theta in angles:
+        load = np.zeros((len(rows), 3 * len(section.nodes)))
+        # up = -cos(theta) radial + sin(theta) tangential (theta grows from the bottom)
+        load[rows, 3 * section.tread] = -np.cos(theta) * normal_z
+        load[rows, 3 * section.tread + 1] = normal_y
+        load[rows, 3 * section.tread + 2] = np.sin(theta) * normal_z
+        loads.append(load)
+    return loads
 
 
 def _upright(recipe: WheelRecipe, section: WheelSection) -> Array:
@@ -227,32 +190,10 @@ def _upright(recipe: WheelRecipe, section: WheelSection) -> Array:
     return np.stack([y, recipe.dimensions.radius - rho], axis=1)
 
 
-def _free(section: WheelSection, on_mirror: bool, symmetric: bool) -> IntArray:
-    """Degrees of freedom of a plane that are not held."""
-    held = np.zeros((len(section.nodes), 3), dtype=bool)
-    held[section.bore] = True
-    held[section.plane_of_symmetry, 1] = True
-    if on_mirror:
-        held[:, [2] if symmetric else [0, 1]] = True
-    return np.flatnonzero(~held.ravel())
-
-
-def _normal_loads(recipe: WheelRecipe, section: WheelSection, angles: Array) -> list[Array]:
-    """Unit forces along the rail's outward normal at the tread nodes, (ny, 3n) a plane."""
-    y = section.nodes[section.tread, 0]
-    slope = np.asarray(rail_profile(recipe.rail_profile).running_slope(y))
-    normal_z = 1 / np.sqrt(1 + slope**2)
-    normal_y = -slope * normal_z
-    rows = np.arange(len(y))
-    loads = []
-    for theta in angles:
-        load = np.zeros((len(y), 3 * len(section.nodes)))
-        # up = -cos(theta) radial + sin(theta) tangential (theta grows from the bottom)
-        load[rows, 3 * section.tread] = -np.cos(theta) * normal_z
-        load[rows, 3 * section.tread + 1] = normal_y
-        load[rows, 3 * section.tread + 2] = np.sin(theta) * normal_z
-        loads.append(load)
-    return loads
+def _without(piece: Slice, free: NDArray[np.bool_]) -> Slice:
+    """Slice on the free dofs of its planes."""
+    at = np.ix_(free, free)
+    return Slice(piece.aa[at], piece.ab[at], piece.bb[at])
 
 
 def _unfold(even: Array, odd: Array, n: int, ny: int) -> Array:

@@ -1,4 +1,8 @@
-"""Cross-section of a wheel with a straight web: half mesh for a solid of revolution."""
+"""Half section of a wheel, symmetric about the plane of its tape circle.
+
+The rim and the hub are shared evenly between the two sides. The flange is left out: it stiffens
+the rim away from the contact only. The whole section, with flange, is in `wheel_section_whole`.
+"""
 
 from dataclasses import dataclass
 
@@ -7,6 +11,7 @@ from numpy.typing import NDArray
 
 from contactstudy.exceptions import InputError
 from contactstudy.profiles.wheel import WheelProfile
+from contactstudy.profiles.wheel_body import WheelDimensions
 from contactstudy.solids.mapped import graded, join
 
 Array = NDArray[np.float64]
@@ -14,59 +19,8 @@ IntArray = NDArray[np.int64]
 
 
 @dataclass(frozen=True)
-class WheelDimensions:
-    """Rim, web and hub, symmetric about the wheel's mid-plane, which holds the tape circle.
-
-    Defaults: an 860 mm monobloc wheel with straight web. Diameter 860 mm and the 135 mm rim
-    are those of EN 13262/EN 13979 passenger wheels; rim, web and hub thicknesses are rounded
-    values of such wheels, not a drawing, and the flange is left out: it stiffens the rim away
-    from the contact only.
-
-    Attributes
-    ----------
-    radius : float
-        Of the tape circle in m.
-    rim_width, rim_thickness : float
-        In m; the rim reaches from ``radius - rim_thickness`` to the tread.
-    web_thickness : float
-        In m.
-    hub_width, hub_radius, bore_radius : float
-        In m.
-    """
-
-    radius: float = 0.430
-    rim_width: float = 0.135
-    rim_thickness: float = 0.060
-    web_thickness: float = 0.025
-    hub_width: float = 0.180
-    hub_radius: float = 0.130
-    bore_radius: float = 0.095
-
-    def __post_init__(self) -> None:
-        """Refuse dimensions that make no wheel."""
-        problems = [
-            f"wheel {name} = {value} m: must be positive"
-            for name, value in vars(self).items()
-            if not value > 0
-        ]
-        inner = self.radius - self.rim_thickness
-        if not self.bore_radius < self.hub_radius < inner:
-            problems.append(
-                f"wheel: bore_radius ({self.bore_radius} m) < hub_radius ({self.hub_radius} m) < "
-                f"radius - rim_thickness ({inner:.4g} m) is required"
-            )
-        if not self.web_thickness < min(self.rim_width, self.hub_width):
-            problems.append(
-                f"wheel web_thickness = {self.web_thickness} m: must be below the widths of rim "
-                f"({self.rim_width} m) and hub ({self.hub_width} m)"
-            )
-        if problems:
-            raise InputError(problems)
-
-
-@dataclass(frozen=True)
 class WheelSection:
-    """Half section y >= 0 in coordinates (y, rho), rho the distance from the wheel's axis.
+    """Section in coordinates (y, rho), rho the distance from the wheel's axis.
 
     Attributes
     ----------
@@ -75,19 +29,24 @@ class WheelSection:
     quads : ndarray (m, 4)
         Corner nodes, counter-clockwise in (y, rho).
     tread : ndarray (k,)
-        Nodes of the fine part of the tread, ordered by y from 0.
+        Nodes of the fine part of the tread, ordered by y; in a half section from 0.
     bore : ndarray (b,)
         Nodes of the bore.
+    symmetric : bool
+        Half section y >= 0 of a symmetric wheel.
     """
 
     nodes: Array
     quads: IntArray
     tread: IntArray
     bore: IntArray
+    symmetric: bool = True
 
     @property
     def plane_of_symmetry(self) -> IntArray:
-        """Nodes on y = 0."""
+        """Nodes on y = 0 of a half section; none of a whole one."""
+        if not self.symmetric:
+            return np.zeros(0, dtype=np.int64)
         return np.flatnonzero(np.abs(self.nodes[:, 0]) < 1e-12)
 
 
@@ -128,11 +87,16 @@ def wheel_section_mesh(
     Raises
     ------
     InputError
-        If the fine tread does not fit on the rim or the tread is not symmetric.
+        If the fine tread does not fit on the rim, or tread or web are not symmetric.
     """
     d = dimensions
     fine = fine_lines(contact_half_width, size)
-    rim, web = 0.5 * d.rim_width, 0.5 * d.web_thickness
+    rim, web = 0.5 * d.rim_width, 0.5 * d.web_thickness[-1]
+    if any(d.web_offset):
+        raise InputError(
+            f"wheel web_offset = {list(d.web_offset)} m: a half model needs a web that is symmetric "
+            "about the tape circle; use a whole section"
+        )
     if fine[-1] >= rim - size:
         raise InputError(
             f"wheel contact_half_width = {contact_half_width} m: must be well inside the half rim "
@@ -161,9 +125,13 @@ def wheel_section_mesh(
     rows = np.linspace(
         d.hub_radius, inner, 1 + max(4, round((inner - d.hub_radius) / coarse / 1.5))
     )
-    disc = np.stack(np.broadcast_arrays(stem[None, :], rows[:, None]), axis=2)
+    wide = d.web(rows)[1] / web  # the web's thickness relative to that at the rim
+    disc = np.stack(np.broadcast_arrays(stem[None, :] * wide[:, None], rows[:, None]), axis=2)
     half_hub = 0.5 * d.hub_width
-    hub_columns = np.r_[stem, web + graded(half_hub - web, coarse, growth, 2 * coarse)[1:]]
+    foot = web * wide[0]
+    hub_columns = np.r_[
+        stem * wide[0], foot + graded(half_hub - foot, coarse, growth, 2 * coarse)[1:]
+    ]
     hub_rows = np.linspace(d.bore_radius, d.hub_radius, 4)
     hub = np.stack(np.broadcast_arrays(hub_columns[None, :], hub_rows[:, None]), axis=2)
     nodes, quads, ids = join(hub, disc, head)

@@ -9,11 +9,11 @@ from contactstudy.contact.hertz import HertzContact, contact_modulus, hertz_cont
 from contactstudy.contact.laws import ContactLaw, HertzSpring, LinearSpring, RigidContact
 from contactstudy.contact.press import tangent_stiffness
 from contactstudy.profiles.rail import rail_profile
+from contactstudy.profiles.wheel_body import WheelDimensions
 from contactstudy.solids.cache import cached
 from contactstudy.solids.cell import RailCell, condense
 from contactstudy.solids.recipe import CellRecipe
 from contactstudy.solids.wheel import WheelFlexibility, WheelRecipe, elastic_wheel, rigid_wheel
-from contactstudy.solids.wheel_section import WheelDimensions
 from contactstudy.solvers.journey import Journey
 from contactstudy.solvers.surface import PRESS_LOADS, geometry_press
 from contactstudy.study.runs import PointRun, RunTable

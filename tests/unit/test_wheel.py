@@ -9,10 +9,11 @@ from scipy.sparse.linalg import splu
 
 from contactstudy.exceptions import InputError
 from contactstudy.profiles import rail_profile, wheel_profile
+from contactstudy.profiles.wheel_body import WheelDimensions
 from contactstudy.solids.hexahedron import hex_stiffness
 from contactstudy.solids.ring import ring_slice
 from contactstudy.solids.wheel import WheelRecipe, elastic_wheel, rigid_wheel
-from contactstudy.solids.wheel_section import WheelDimensions, wheel_section_mesh
+from contactstudy.solids.wheel_section import wheel_section_mesh
 
 COARSE = WheelRecipe(size=0.008, contact_half_length=0.016, contact_half_width=0.016)
 
@@ -138,7 +139,7 @@ def test_bad_wheels_are_refused() -> None:
     with pytest.raises(InputError, match="bore_radius"):
         WheelDimensions(hub_radius=0.5)
     with pytest.raises(InputError, match="must be positive"):
-        WheelDimensions(web_thickness=-0.01)
+        WheelDimensions(web_thickness=(-0.01, 0.02))
     with pytest.raises(InputError, match="size"):
         WheelRecipe(size=0.0)
     with pytest.raises(InputError, match="even tread"):

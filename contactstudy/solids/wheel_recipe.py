@@ -1,0 +1,158 @@
+"""What an elastic wheel is made from."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contactstudy.profiles.curve import wheel_curve
+from contactstudy.profiles.wheel import wheel_profile
+from contactstudy.profiles.wheel_body import WheelDimensions, file_digest
+from contactstudy.solids.wheel_section import WheelSection, fine_lines, wheel_section_mesh
+from contactstudy.solids.wheel_section_whole import fine_arcs, whole_wheel_section
+from contactstudy.validation import positive, raise_if
+
+Array = NDArray[np.float64]
+
+FAR_STEP_OF_MODES = np.pi / 60
+"""Largest angle between two planes in rad for elastic modes: 24 planes a wave of five round the
+wheel. Static flexibility is content with the recipe's default."""
+
+
+@dataclass(frozen=True)
+class WheelRecipe:
+    """What an elastic wheel is made from; two equal recipes give equal wheels.
+
+    Attributes
+    ----------
+    profile : str
+        Wheel profile, a name or a file; even in y where `symmetric`.
+    rail_profile : str
+        Gives the direction of the contact forces on a symmetric wheel: its outward normal at
+        each y. On a whole wheel they act along the wheel's own normal.
+    dimensions : WheelDimensions
+        Of rim, web and hub.
+    size : float
+        Element size at the tread in m (lateral, depth and along the circumference).
+    contact_half_length, contact_half_width : float
+        Extent of the contact zone along and across the rail on each side in m.
+    youngs_modulus, poisson_ratio, density : float
+        Material, E in Pa, kg/m^3.
+    symmetric : bool
+        Half section, even in y, without flange. False: the whole section.
+    contact_centre : float
+        Arc length on the profile, 0 at the tape circle, of the middle of the contact zone in m.
+    far_step : float
+        Largest angle between two planes in rad, away from the contact.
+    profile_digest : str
+        Of the profile's content where it is a file; filled in by itself.
+    """
+
+    profile: str = "cylinder"
+    rail_profile: str = "60E1"
+    dimensions: WheelDimensions = field(default_factory=WheelDimensions)
+    size: float = 0.002
+    contact_half_length: float = 0.012
+    contact_half_width: float = 0.008
+    youngs_modulus: float = 210e9
+    poisson_ratio: float = 0.3
+    density: float = 7850.0
+    symmetric: bool = True
+    contact_centre: float = 0.0
+    far_step: float = np.pi / 15
+    profile_digest: str = field(init=False, default="")
+
+    def __post_init__(self) -> None:
+        """Refuse what cannot be meshed; all problems at once."""
+        problems = []
+        if not 0 < self.size <= 0.008:
+            problems.append(f"wheel size = {self.size} m: must be above 0 and at most 0.008 m")
+        for name, value in (
+            ("contact_half_length", self.contact_half_length),
+            ("contact_half_width", self.contact_half_width),
+        ):
+            if not self.size <= value <= 0.04:
+                problems.append(
+                    f"wheel {name} = {value} m: must be at least the size and at most 0.04 m"
+                )
+        if self.symmetric and self.contact_centre != 0.0:
+            problems.append(
+                f"wheel contact_centre = {self.contact_centre} m: must be 0 on a symmetric wheel"
+            )
+        if not 0 < self.far_step <= np.pi / 6:
+            problems.append(
+                f"wheel far_step = {self.far_step} rad: must be above 0 and at most pi/6"
+            )
+        problems += positive("wheel density", self.density, "kg/m^3")
+        raise_if(problems)
+        object.__setattr__(self, "profile_digest", file_digest(self.profile))
+
+    @property
+    def angles(self) -> Array:
+        """Angles of the planes from the bottom (0) to the top (pi) in rad.
+
+        Equal arcs of about `size` in the contact zone, then steps that grow by half each time
+        up to `far_step`.
+        """
+        first = self.size / self.contact_radius
+        fine = first * np.arange(self._n_fine + 1)
+        steps: list[float] = []
+        while fine[-1] + sum(steps) < np.pi:
+            steps.append(min(first * 1.5 ** (len(steps) + 1), self.far_step))
+        coarse = np.cumsum(steps) * (np.pi - fine[-1]) / sum(steps)
+        return np.asarray(np.concatenate([fine, fine[-1] + coarse]))
+
+    @property
+    def n_far(self) -> int:
+        """Equal steps at the end of `angles`."""
+        steps = np.diff(self.angles)
+        return int(np.count_nonzero(np.isclose(steps, steps[-1], rtol=1e-9)))
+
+    @property
+    def contact_radius(self) -> float:
+        """Distance of the contact zone's middle from the axis in m."""
+        if self.symmetric:
+            return self.dimensions.radius
+        return self.dimensions.radius - float(
+            wheel_curve(self.profile).point(self.contact_centre)[1]
+        )
+
+    @property
+    def x(self) -> Array:
+        """Grid lines of the contact zone along the rail, symmetric about 0, in m."""
+        right = self.contact_radius * np.sin(self.angles[: self._n_fine + 1])
+        return np.concatenate([-right[:0:-1], right])
+
+    @property
+    def y(self) -> Array:
+        """Grid lines of the contact zone across the rail in m.
+
+        Arc lengths on the profile from the tape circle; those of a symmetric wheel begin at 0.
+        """
+        if self.symmetric:
+            return fine_lines(self.contact_half_width, self.size)
+        return fine_arcs(self.contact_centre, self.contact_half_width, self.size)
+
+    def section(self) -> WheelSection:
+        """Mesh of the section.
+
+        Raises
+        ------
+        InputError
+            If tread, rim and contact zone do not fit together.
+        """
+        if self.symmetric:
+            return wheel_section_mesh(
+                self.dimensions, wheel_profile(self.profile), self.size, self.contact_half_width
+            )
+        return whole_wheel_section(
+            self.dimensions,
+            wheel_curve(self.profile),
+            self.size,
+            self.contact_centre,
+            self.contact_half_width,
+        )
+
+    @property
+    def _n_fine(self) -> int:
+        return max(2, round(self.contact_half_length / self.size))
