@@ -22,6 +22,7 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from contactstudy.contact.pressure_field import SurfacePressure
 from contactstudy.exceptions import InputError
 from contactstudy.solids.stress import maximum_shear, von_mises
 
@@ -29,33 +30,6 @@ Array = NDArray[np.float64]
 
 SHALLOWEST = 0.02
 """Least depth at which a maximum is looked for, as a part of the patch's radius sqrt(A/pi)."""
-
-
-@dataclass(frozen=True)
-class SurfacePressure:
-    """Pressure on the rectangles of a grid, zero elsewhere.
-
-    Attributes
-    ----------
-    x, y : ndarray (k+1,), (m+1,)
-        Edges of the rectangles in m, increasing.
-    pressure : ndarray (k, m)
-        In Pa.
-    """
-
-    x: Array
-    y: Array
-    pressure: Array
-
-    @property
-    def force(self) -> float:
-        """Resultant in N."""
-        return float(np.diff(self.x) @ self.pressure @ np.diff(self.y))
-
-    @property
-    def area(self) -> float:
-        """Area under pressure in m^2."""
-        return float(np.diff(self.x) @ (self.pressure > 0) @ np.diff(self.y))
 
 
 @dataclass(frozen=True)
@@ -74,45 +48,6 @@ class StressMaximum:
     x: float
     y: float
     depth: float
-
-
-def bilinear_pressure(x: Array, y: Array, nodal: Array, parts: int = 4) -> SurfacePressure:
-    """Grid of rectangles for a pressure given at nodes and bilinear between them.
-
-    Each facet is cut into `parts` x `parts` rectangles with the mean of the bilinear function
-    on each, so that the resultant is kept.
-
-    Parameters
-    ----------
-    x, y : ndarray (k,), (m,)
-        Grid lines in m, increasing.
-    nodal : ndarray (k, m)
-        In Pa.
-    parts : int
-
-    Returns
-    -------
-    SurfacePressure
-    """
-    if parts < 1 or nodal.shape != (len(x), len(y)):
-        raise InputError(
-            f"pressure below the patch: needs parts >= 1 (is {parts}) and as many values as nodes "
-            f"({nodal.shape} for {len(x)} x {len(y)} lines)"
-        )
-    fine_x, Ax = _parts(np.asarray(x, dtype=float), parts)
-    fine_y, Ay = _parts(np.asarray(y, dtype=float), parts)
-    return SurfacePressure(fine_x, fine_y, Ax @ nodal @ Ay.T)
-
-
-def _parts(lines: Array, parts: int) -> tuple[Array, Array]:
-    """Edges after cutting every step, and the rows that interpolate to the parts' middles."""
-    share = np.arange(parts) / parts
-    edges = np.append((lines[:-1, None] + np.diff(lines)[:, None] * share).ravel(), lines[-1])
-    A = np.zeros((parts * (len(lines) - 1), len(lines)))
-    row = np.arange(len(A))
-    middle = np.tile(share + 0.5 / parts, len(lines) - 1)
-    A[row, row // parts], A[row, row // parts + 1] = 1 - middle, middle
-    return edges, A
 
 
 def half_space_stress(load: SurfacePressure, points: Array, poisson_ratio: float = 0.3) -> Array:

@@ -58,6 +58,9 @@ CASES: tuple[Case, ...] = (
     Case("hertz_sphere", "hertz:sphere"),
     Case("hertz_ellipses", "hertz:ellipses", slow=True),
     Case("ssnv104", "hertz:ssnv104"),
+    Case("subsurface_line", "subsurface:line_case"),
+    Case("subsurface_sphere", "subsurface:sphere_case", slow=True),
+    Case("subsurface_ellipse", "subsurface:ellipse_case"),
 )
 
 

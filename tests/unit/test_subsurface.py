@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from contactstudy.contact.subsurface import (
+from contactstudy.contact.pressure_field import (
     SurfacePressure,
     bilinear_pressure,
-    half_space_stress,
-    stress_maxima,
+    recovered_pressure,
 )
+from contactstudy.contact.subsurface import half_space_stress, stress_maxima
 from contactstudy.exceptions import InputError
 from contactstudy.solids.stress import maximum_shear, von_mises
 
@@ -73,6 +73,23 @@ def test_bilinear_pressure_keeps_the_force():
         bilinear_pressure(x, y, nodal.T)
     with pytest.raises(InputError, match="depth must be above 0"):
         half_space_stress(bilinear_pressure(x, y, nodal), np.zeros((1, 3)))
+
+
+def test_recovered_pressure_undoes_the_smoothing_of_the_projection():
+    # p = S q for q = cos(x) cos(y), whose lumped projection is q (1 - h^2/6 ...)^2
+    errors = []
+    for n in (12, 24):
+        x = np.linspace(-1.0, 1.0, n + 1)
+        q = np.outer(np.cos(x), np.cos(x))
+        h = x[1] - x[0]
+        factor = (2 + np.cos(h)) / 3  # of the inner rows: (cos(x-h) + 4 cos x + cos(x+h))/6
+        nodal = q * factor**2
+        field = recovered_pressure(x, x, nodal, parts=1)
+        exact = bilinear_pressure(x, x, q, parts=1)
+        inner = np.s_[3:-3, 3:-3]
+        errors.append(np.abs(field.pressure - exact.pressure)[inner].max())
+        assert field.force == pytest.approx(bilinear_pressure(x, x, nodal, 1).force, rel=1e-14)
+    assert np.log2(errors[0] / errors[1]) == pytest.approx(4.0, abs=0.3)
 
 
 def test_stress_under_a_hertzian_patch_is_that_of_its_axis():
