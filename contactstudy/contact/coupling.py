@@ -42,10 +42,13 @@ class PatchState:
         Normal forces in N.
     surface_load : ndarray (nodes,)
         Nodal forces on the rail's surface patch, in N, positive into the rail.
+    gap : ndarray (n,)
+        Gaps in m; minus the penetration where there is a force.
     """
 
     forces: Array
     surface_load: Array
+    gap: Array
 
 
 class SurfaceCoupling:
@@ -120,7 +123,7 @@ class SurfaceCoupling:
         self._patch_step = -1
         self._rail_step, self._rail_period = rail_step, rail_period
         self._spline: SplineLine | None = None
-        self.last = PatchState(np.zeros(n), np.zeros(0))
+        self.last = PatchState(np.zeros(n), np.zeros(0), points.gap)
 
     def attach(self, factor: Factor, scale: float) -> None:
         """Take the factor of the system and the share of the new force in a step."""
@@ -159,7 +162,7 @@ class SurfaceCoupling:
         increment = np.zeros(len(u_free))
         increment[self._reach] = -self._scale * (modal @ self._response)
         increment[self._vehicle] += self._scale * total * self._vehicle_response
-        self.last = PatchState(forces, surface_load)
+        self.last = PatchState(forces, surface_load, self._gap)
         record: dict[str, Array | float] = {
             "contact_force": np.array([total]),
             "contact_area": points.contact_area(active),
