@@ -1,4 +1,7 @@
-"""Commands: run, check, reproduce, studies. Exit status 0, 1 (broke down), 2 (input), 130."""
+"""Commands: run, check, reproduce, verify, studies.
+
+Exit status 0, 1 (broke down, or a check fails), 2 (input), 130 (interrupted).
+"""
 
 from __future__ import annotations
 
@@ -102,6 +105,49 @@ def reproduce(
         with TerminalReporter(_errors()) as reporter:
             results = run_study(study, folder, jobs, reporter)
         print_summary(results, folder, Console())
+
+
+@app.command
+def verify(
+    *names: str,
+    out: Annotated[Path, Parameter(name=["--out", "-o"])] = Path("reports/verification"),
+    quick: Annotated[bool, Parameter(negative="", help="Leave out what takes long.")] = False,
+    listing: Annotated[bool, Parameter(name="--list", negative="")] = False,
+) -> None:
+    """Run the named verification cases; write verification.pdf and verification.json.
+
+    Parameters
+    ----------
+    names
+        Cases; all without names.
+    out
+        Folder for the results; finished cases found there are not computed again.
+    listing
+        List the cases and run nothing.
+    """
+    from contactstudy.verification.cases import select
+
+    cases = select(names)
+    if listing:
+        width = max(len(case.name) for case in cases)
+        for case in cases:
+            print(f"{case.name:<{width}}  {case.about}".rstrip())
+        return
+    from contactstudy.report.verification import write_verification
+    from contactstudy.study.terminal import TerminalReporter
+    from contactstudy.verification.outcome import write_json
+    from contactstudy.verification.runner import about, complaints, run_cases
+
+    with TerminalReporter(_errors()) as reporter:
+        outcomes = run_cases(cases, out, quick, reporter)
+        with reporter.stage("typesetting"):
+            write_json(outcomes, about(), out)
+            pdf = write_verification(outcomes, about(), out)
+    print(pdf)
+    if problems := complaints(outcomes):
+        raise ContactStudyError(
+            "\n".join([f"verification: {len(problems)} of the checks fail", *problems])
+        )
 
 
 @app.command

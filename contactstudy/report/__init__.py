@@ -1,22 +1,19 @@
-"""The report of a study as a PDF, set by Typst without network and with its own fonts."""
+"""The report of a study as a PDF."""
 
-import json
 import shutil
 import tempfile
 from pathlib import Path
 
-import typst
-
 from contactstudy.figures import drawings, write_figures
 from contactstudy.report.content import content
-from contactstudy.resources import resource
+from contactstudy.report.typesetting import typeset
 from contactstudy.study.files import writing
 from contactstudy.study.results import StudyResults
 
 __all__ = ["write_report"]
 
 REPORT_FILE = "report.pdf"
-_TEMPLATE = ("template.typ", "blocks.typ", "model.typ", "limits.typ", "references.yml")
+_TEMPLATE = ("template.typ", "model.typ", "limits.typ", "references.yml")
 
 
 def write_report(results: StudyResults, out_dir: Path, timings: bool = False) -> Path:
@@ -42,18 +39,8 @@ def write_report(results: StudyResults, out_dir: Path, timings: bool = False) ->
     target = out_dir / REPORT_FILE
     with tempfile.TemporaryDirectory() as folder, writing(target) as path:
         root = Path(folder)
-        for name in _TEMPLATE:
-            shutil.copyfile(resource("report", name), root / name)
         _gather(results, out_dir, root / "figures")
-        data = json.dumps(content(results, timings), ensure_ascii=False, allow_nan=False)
-        (root / "data.json").write_text(data, "utf-8")
-        pdf = typst.compile(
-            str(root / "template.typ"),
-            root=str(root),
-            ignore_system_fonts=True,
-            timestamp=0,
-        )
-        path.write_bytes(pdf)
+        path.write_bytes(typeset(root, _TEMPLATE, content(results, timings)))
     return target
 
 

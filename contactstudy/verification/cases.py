@@ -33,6 +33,13 @@ class Case:
     slow: bool = False
     needs: tuple[str, ...] = ()
 
+    @property
+    def about(self) -> str:
+        """What a user must know before calling it, e.g. "slow, needs the program ccx"."""
+        needed = [f"the {need.replace(':', ' ')}" for need in self.needs]
+        parts = ["slow"] * self.slow + [f"needs {' and '.join(needed)}"] * bool(needed)
+        return ", ".join(parts)
+
     def load(self) -> Callable[[], CaseResult]:
         """The function itself."""
         module, _, function = self.function.partition(":")

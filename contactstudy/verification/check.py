@@ -68,10 +68,10 @@ class Check:
             return True
         error = self.error
         if self.sense == "at_most":
-            return error <= self.band
+            return bool(error <= self.band)
         if self.sense == "at_least":
-            return error >= -self.band
-        return abs(error) <= self.band
+            return bool(error >= -self.band)
+        return bool(abs(error) <= self.band)
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,37 @@
+"""Figures of the verification: the curves of a case, in the one style."""
+
+from matplotlib.figure import Figure
+
+from contactstudy.figures.style import (
+    REFERENCE_STYLE,
+    drawing,
+    figure_legend,
+    new_figure,
+    run_styles,
+)
+from contactstudy.verification.check import Plot
+
+
+def draw(plot: Plot) -> Figure:
+    """One pair of axes; to be called within `contactstudy.figures.style.drawing`."""
+    figure = new_figure(3.1, 5.4)
+    axes = figure.add_subplot()
+    labels = [c.label for c in plot.curves if c.style != "reference"]
+    styles = run_styles(labels, None)
+    for c in plot.curves:
+        style = REFERENCE_STYLE if c.style == "reference" else styles[c.label]
+        line = style.line | {"label": c.label}
+        if c.style == "points":
+            line |= {"linestyle": "none"}
+        if c.style in ("points", "both"):
+            line |= {"marker": style.marker, "markersize": 4, "markerfacecolor": "none"}
+        axes.plot(c.x, c.y, **line)
+    axes.set_xscale(plot.x_scale)
+    axes.set_yscale(plot.y_scale)
+    axes.set_xlabel(plot.x_label)
+    axes.set_ylabel(plot.y_label)
+    figure_legend(figure, axes)
+    return figure
+
+
+__all__ = ["draw", "drawing"]

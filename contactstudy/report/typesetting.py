@@ -1,0 +1,34 @@
+"""From a template and data to a PDF, by Typst without network and with its own fonts."""
+
+import json
+import shutil
+from pathlib import Path
+from typing import Any
+
+import typst
+
+from contactstudy.resources import resource
+
+_SHARED = ("blocks.typ", "style.typ")
+
+
+def typeset(root: Path, template: tuple[str, ...], data: dict[str, Any]) -> bytes:
+    """Set a document; equal data and figures give equal bytes.
+
+    Parameters
+    ----------
+    root : Path
+        A folder for the template's files, in which the figures are already.
+    template : tuple of str
+        Files of the template, the main one first.
+    data : dict
+        What the template inserts.
+    """
+    for name in (*template, *_SHARED):
+        shutil.copyfile(resource("report", name), root / name)
+    text = json.dumps(data, ensure_ascii=False, allow_nan=False)
+    (root / "data.json").write_text(text, "utf-8")
+    pdf: bytes = typst.compile(
+        str(root / template[0]), root=str(root), ignore_system_fonts=True, timestamp=0
+    )
+    return pdf

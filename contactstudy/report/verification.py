@@ -1,0 +1,167 @@
+"""The verification document as a PDF: what each named case found."""
+
+import tempfile
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from contactstudy.figures.style import drawing, save
+from contactstudy.figures.verification import draw
+from contactstudy.report.quantity import percent, rounded
+from contactstudy.report.tables import Block, table, text
+from contactstudy.report.typesetting import typeset
+from contactstudy.study.files import writing
+from contactstudy.verification.check import Cell, Check, Table
+from contactstudy.verification.outcome import Outcome
+
+PDF_FILE = "verification.pdf"
+_WORDS = {True: "kept", False: "LEFT", None: "none"}
+_LIMITS = {"equal": "", "at_most": "at most ", "at_least": "at least "}
+
+
+def write_verification(outcomes: Sequence[Outcome], about: dict[str, Any], out_dir: Path) -> Path:
+    """Set out_dir/verification.pdf; its figures go into out_dir/figures as well.
+
+    Parameters
+    ----------
+    outcomes : sequence of Outcome
+    about : dict
+        Versions and hash, see `contactstudy.verification.runner.about`.
+    out_dir : Path
+    """
+    with tempfile.TemporaryDirectory() as folder, writing(out_dir / PDF_FILE) as path:
+        root = Path(folder)
+        with drawing():
+            for outcome in outcomes:
+                for k, plot in enumerate(outcome.result.figures if outcome.result else ()):
+                    name = _figure(outcome, k)
+                    pdf, _ = save(draw(plot), out_dir / "figures", name)
+                    (root / "figures").mkdir(exist_ok=True)
+                    (root / "figures" / f"{name}.pdf").write_bytes(pdf.read_bytes())
+        path.write_bytes(typeset(root, ("verification.typ",), content(outcomes, about)))
+    return out_dir / PDF_FILE
+
+
+def content(outcomes: Sequence[Outcome], about: dict[str, Any]) -> dict[str, Any]:
+    """Everything that the template inserts."""
+    versions = about["versions"]
+    return {
+        "title": "Verification of contactstudy",
+        "subtitle": f"contactstudy {versions['contactstudy']}",
+        "name": "contactstudy verify",
+        "summary": _summary(outcomes),
+        "cases": [
+            {"title": o.result.title, "blocks": _case(o)} for o in outcomes if o.result is not None
+        ],
+        "provenance": [
+            {
+                "kind": "list",
+                "items": [
+                    f"Versions: {', '.join(f'{k} {v}' for k, v in versions.items())}.",
+                    f"Hash of the program's code: {about['code']}.",
+                    "Each case is run and printed by the command “contactstudy verify NAME”, and "
+                    "asserted by the program's tests.",
+                    "The same program gives the same bytes of this document.",
+                ],
+            }
+        ],
+    }
+
+
+def _summary(outcomes: Sequence[Outcome]) -> list[Block]:
+    checks = [c for o in outcomes if o.result for c in o.result.checks]
+    banded = [c for c in checks if c.passed is not None]
+    kept = sum(c.passed is True for c in banded)
+    lines = (
+        f"{len(outcomes)} named cases, {len(checks)} comparisons with a reference; {len(banded)} "
+        f"have a band, and {kept} of these are within it. A band limits the difference relative "
+        "to the reference (or to the scale that the case names). What has no band is reported."
+    )
+    rows = []
+    for o in outcomes:
+        found = o.result.checks if o.result else ()
+        own = [c for c in found if c.passed is not None]
+        rows.append(
+            [
+                o.name,
+                o.result.title if o.result else o.reason,
+                o.status,
+                f"{sum(c.passed is True for c in own)} of {len(own)}" if o.result else "–",
+                percent(_largest_share(own), 2) if own else "–",
+            ]
+        )
+    made = table(
+        ["Case", "What", "Status", "Kept", "Largest share of a band (%)"],
+        rows,
+        "Named cases.",
+        3,
+    )
+    made["columns"][1]["wide"] = True
+    return [text(lines), made]
+
+
+def _largest_share(checks: Sequence[Check]) -> float:
+    """Largest difference relative to its band; limits and exact checks have no share."""
+    shares = [abs(c.error) / c.band for c in checks if c.band and c.sense == "equal"]
+    return max(shares, default=float("nan"))
+
+
+def _case(outcome: Outcome) -> list[Block]:
+    result = outcome.result
+    assert result is not None
+    blocks = [text(" ".join(p.split())) for p in result.method.split("\n\n")]
+    blocks.append(_checks(result.checks))
+    blocks += [_table(t) for t in result.tables]
+    for k, plot in enumerate(result.figures):
+        file = f"{_figure(outcome, k)}.pdf"
+        blocks.append({"kind": "figure", "file": file, "caption": plot.caption})
+    return blocks
+
+
+def _figure(outcome: Outcome, index: int) -> str:
+    return f"{outcome.name}_{index + 1}"
+
+
+def _checks(checks: Sequence[Check]) -> Block:
+    sources = list(dict.fromkeys(c.source for c in checks))
+    columns = ["Quantity", "Computed", "Reference", "Unit", "Difference (%)", "Band (%)", "Band is"]
+    rows = []
+    for c in checks:
+        row = [c.quantity, rounded(c.computed, 5), _LIMITS[c.sense] + rounded(c.reference, 5)]
+        row += [c.unit or "–", percent(c.error, 2), _band(c), _WORDS[c.passed]]
+        rows.append(row if len(sources) == 1 else [*row, str(sources.index(c.source) + 1)])
+    if len(sources) == 1:
+        note = f"Reference: {sources[0]}."
+    else:
+        columns.append("Source")
+        note = "Sources: " + "; ".join(f"({i + 1}) {s}" for i, s in enumerate(sources)) + "."
+    made = table(columns, rows, "Reference beside computed.", 1, note)
+    made["columns"][0]["wide"] = True
+    return made
+
+
+def _band(check: Check) -> str:
+    if check.band is None:
+        return "–"
+    return "limit" if check.band == 0.0 else percent(check.band, 2)
+
+
+def _table(content: Table) -> Block:
+    rows = [[_cell(cell) for cell in row] for row in content.rows]
+    left = [
+        all(isinstance(row[i], str) for row in content.rows) for i in range(len(content.header))
+    ]
+    made = table(list(content.header), rows, content.caption, 0)
+    for column, is_text in zip(made["columns"], left, strict=True):
+        column["align"] = "left" if is_text else "right"
+    if len(content.header) > 7:
+        made["size"] = 8
+    return made
+
+
+def _cell(cell: Cell) -> str:
+    if isinstance(cell, str):
+        return cell
+    if isinstance(cell, float):
+        return rounded(cell, 4)
+    return "–" if cell is None else str(cell)

@@ -1,0 +1,138 @@
+"""Run the named cases one after the other and keep each as it ends."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+from typing import Any
+
+from contactstudy.exceptions import ContactStudyError
+from contactstudy.provenance import versions
+from contactstudy.study import store
+from contactstudy.study.files import ensure_writable, writing
+from contactstudy.study.reporter import Quiet, Reporter
+from contactstudy.verification.cases import Case
+from contactstudy.verification.outcome import Outcome, from_data, judged, to_data
+
+KEPT = "cases"
+"""Folder of the output in which finished cases are kept."""
+_OPTIONAL = ("tamaas",)
+
+
+def run_cases(
+    cases: Sequence[Case], out_dir: Path, quick: bool = False, reporter: Reporter | None = None
+) -> list[Outcome]:
+    """Run cases; those that are kept in `out_dir` from the same program are taken from there.
+
+    Parameters
+    ----------
+    cases : sequence of Case
+    out_dir : Path
+    quick : bool
+        Slow cases are not run.
+    reporter : Reporter, optional
+
+    Returns
+    -------
+    list of Outcome
+        One a case. A case that breaks down does not keep the others from running.
+
+    Raises
+    ------
+    InputError
+        If the folder cannot be written.
+    """
+    reporter = reporter or Quiet()
+    ensure_writable(out_dir)
+    outcomes = []
+    for case in cases:
+        outcome = _skipped(case, quick) or _kept(case, out_dir)
+        if outcome is None:
+            reporter.begin(case.name, 1)
+            reporter.progress(case.name, 0, 1)
+            outcome = _run(case, out_dir)
+            reporter.end(case.name, outcome.good)
+        reporter.note(summary(outcome))
+        outcomes.append(outcome)
+    return outcomes
+
+
+def about() -> dict[str, Any]:
+    """Versions of everything that computes, and the hash of the program's code."""
+    found = versions()
+    for package in _OPTIONAL:
+        try:
+            found[package] = version(package)
+        except PackageNotFoundError:
+            continue
+    return {"versions": found, "code": store.code_digest()}
+
+
+def complaints(outcomes: Sequence[Outcome]) -> list[str]:
+    """One line for each check that leaves its band and for each case that broke down."""
+    lines = []
+    for outcome in outcomes:
+        if outcome.status == "broke down":
+            lines.append(f"{outcome.name}: broke down: {outcome.reason}")
+        for check in outcome.result.failed if outcome.result else ():
+            lines.append(
+                f"{outcome.name}: {check.quantity}: {check.computed:.6g} {check.unit} against "
+                f"{check.reference:.6g} ({check.source}), {100 * check.error:+.3g} %; band "
+                f"{100 * (check.band or 0.0):g} %"
+            )
+    return lines
+
+
+def summary(outcome: Outcome) -> str:
+    """One line on what became of a case."""
+    if outcome.result is None:
+        return f"{outcome.name}: {outcome.status}: {outcome.reason}"
+    with_band = [c for c in outcome.result.checks if c.passed is not None]
+    kept = len(with_band) - len(outcome.result.failed)
+    rest = len(outcome.result.checks) - len(with_band)
+    reported = f", {rest} reported without a band" if rest else ""
+    return f"{outcome.name}: {kept} of {len(with_band)} checks within their bands{reported}"
+
+
+def _skipped(case: Case, quick: bool) -> Outcome | None:
+    missing = case.missing()
+    if missing:
+        return Outcome(case.name, "not run", f"needs {' and '.join(missing)}, not installed here")
+    if quick and case.slow:
+        return Outcome(case.name, "not run", "takes long and was left out by --quick")
+    return None
+
+
+def _path(case: Case, out_dir: Path) -> Path:
+    return out_dir / KEPT / f"{case.name}-{store.digest([case.name, about()])}.json"
+
+
+def _kept(case: Case, out_dir: Path) -> Outcome | None:
+    """The case as it was kept; None when there is none, or when the file is damaged."""
+    try:
+        data = json.loads(_path(case, out_dir).read_text("utf-8"))
+        if data["sha256"] != store.digest(data["result"], 64):
+            return None
+        return judged(from_data(data["result"]))
+    except (OSError, ValueError, KeyError, TypeError):
+        return None
+
+
+def _run(case: Case, out_dir: Path) -> Outcome:
+    try:
+        result = case.load()()
+        if result.name != case.name:
+            raise ContactStudyError(f"calls itself {result.name!r}")
+    except Exception as error:  # the others shall run all the same; the command then ends with 1
+        return Outcome(case.name, "broke down", f"{type(error).__name__}: {error}")
+    data = to_data(result)
+    path = _path(case, out_dir)
+    with writing(path) as temporary:
+        text = json.dumps(
+            {"sha256": store.digest(data, 64), "result": data}, ensure_ascii=False, allow_nan=False
+        )
+        temporary.write_text(text + "\n", "utf-8")
+    # as it is read again, so that a resumed command writes the same bytes
+    return judged(from_data(json.loads(json.dumps(data))))
