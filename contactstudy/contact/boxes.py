@@ -5,6 +5,7 @@ import trimesh
 from numpy.typing import NDArray
 
 from contactstudy.exceptions import InputError
+from contactstudy.profiles.curve import ProfileCurve
 
 Array = NDArray[np.float64]
 
@@ -89,3 +90,14 @@ def facet_boxes(
         ],
         axis=1,
     )
+
+
+def largest_sagitta(curve: ProfileCurve, s: Array) -> float:
+    """Largest distance of a profile from the chords between arc lengths s (n,), in m."""
+    inner = np.asarray(s)[:-1, None] + np.diff(s)[:, None] * np.linspace(0.0, 1.0, 9)
+    p = curve.point(inner)
+    chord = p[:, -1:] - p[:, :1]
+    off = p - p[:, :1]
+    cross = chord[..., 0] * off[..., 1] - chord[..., 1] * off[..., 0]
+    # between the nine places it can be larger by (1/16)^2 of the whole
+    return float(np.abs(cross / np.linalg.norm(chord, axis=-1)).max()) * 1.01

@@ -36,13 +36,17 @@ def grid_surface(x: Array, y: Array, z: Array) -> trimesh.Trimesh:
     trimesh.Trimesh
         With nodes ``i*ny + j``, unprocessed (numbers are kept), normals up.
     """
-    nx, ny = len(x), len(y)
     X, Y = np.meshgrid(x, y, indexing="ij")
-    vertices = np.stack([X, Y, np.asarray(z)], axis=-1).reshape(-1, 3)
+    return grid_mesh(np.stack([X, Y, np.asarray(z)], axis=-1))
+
+
+def grid_mesh(nodes: Array) -> trimesh.Trimesh:
+    """Triangulate a surface given by the nodes (nx, ny, 3) of a grid, as `grid_surface` does."""
+    nx, ny, _ = nodes.shape
     node = np.arange(nx * ny).reshape(nx, ny)
     a, b, c, d = node[:-1, :-1], node[1:, :-1], node[1:, 1:], node[:-1, 1:]
     faces = np.stack([np.stack([a, b, c], -1), np.stack([a, c, d], -1)], axis=2).reshape(-1, 3)
-    return trimesh.Trimesh(vertices, faces, process=False)
+    return trimesh.Trimesh(nodes.reshape(-1, 3), faces, process=False)
 
 
 class FacetSearch:

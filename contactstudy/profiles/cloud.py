@@ -1,0 +1,249 @@
+"""Smooth plane curve through a cloud of measured points that lie along it.
+
+A cubic least-squares spline (y, z)(s) by arc length. Points are projected on the curve and the
+curve is fitted again at the arc lengths of their feet until both agree, so the distances that are
+made least are those along the normal. Knots stay where the points ask for them: one after the
+other is taken out as long as the fit suffers less than the points' own scatter explains, so the
+curve is smooth along the crown and still follows the gauge corner.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import BSpline
+
+from contactstudy.exceptions import InputError, NumericalError
+
+Array = NDArray[np.float64]
+
+_DEGREE = 3
+_BIN = 1e-4  # length [m] over which points are taken together where knots are chosen
+_SETTLED = 1e-6  # change of the feet [m] at which fit and projection agree
+_FLOOR = 2e-9  # scatter [m] below which nothing is fitted: coordinates in single precision
+
+
+@dataclass(frozen=True)
+class CloudFit:
+    """A curve fitted to a cloud of points.
+
+    Attributes
+    ----------
+    spline : BSpline
+        (y, z) over the arc length, from 0 [m].
+    s : ndarray (n,)
+        Arc lengths of the points' feet [m].
+    distance : ndarray (n,)
+        Signed distances of the points, positive to the left of the walk (above) [m].
+    normal : ndarray (n, 2)
+        Unit normals at the feet, to the left.
+    scatter : float
+        Standard deviation of the points about any smooth curve, from their neighbours along
+        the curve [m].
+    """
+
+    spline: BSpline
+    s: Array
+    distance: Array
+    normal: Array
+    scatter: float
+
+    @property
+    def length(self) -> float:
+        """Arc length of the curve [m]."""
+        return float(self.spline.t[-1])
+
+    @property
+    def knots(self) -> Array:
+        """Arc lengths of the ends and the knots between [m]."""
+        return np.unique(self.spline.t)
+
+    @property
+    def rms(self) -> float:
+        """Root mean square of the distances [m]."""
+        return float(np.sqrt(np.mean(self.distance**2)))
+
+
+def fit_cloud(points: Array, shortest: float = 1e-3, name: str = "profile") -> CloudFit:
+    """Fit a curve to points along which y grows.
+
+    Parameters
+    ----------
+    points : ndarray (n, 2)
+        (y, z) in any order [m].
+    shortest : float
+        Least distance of knots [m]: nothing finer is taken from the points.
+    name : str
+        For messages.
+
+    Returns
+    -------
+    CloudFit
+
+    Raises
+    ------
+    InputError
+        If there are too few points.
+    NumericalError
+        If projection and fit do not come to agree.
+    """
+    p = np.asarray(points, dtype=float)
+    if len(p) < 20 or not np.ptp(p[:, 0]) > 0:
+        raise InputError(f"{name}: {len(p)} points on the running surface; allowed: 20 or more")
+    s = _start(p)
+    knots = np.linspace(0.0, s.max(), max(int(s.max() / shortest), 1) + 1)
+    # smooth at first, so that points far from the polygon find their feet
+    for stiff in (8.0, 4.0, 2.0):
+        for _ in range(3):
+            fit = _measured(p, _spline(p, s, knots, stiff * shortest), s)
+            s, knots = fit.s, knots * (fit.length / knots[-1])
+    fit = _agreed(p, s, knots, shortest, name)
+    return _agreed(p, fit.s, _needed(p, fit, shortest), shortest, name)
+
+
+def _start(p: Array) -> Array:
+    """Arc length of the points along the polygon through the means of groups in y."""
+    order = np.argsort(p[:, 0], kind="stable")
+    groups = np.array_split(order, int(np.clip(len(p) // 5, 4, 150)))
+    means = np.array([p[g].mean(axis=0) for g in groups])
+    means = means[np.concatenate([[True], np.diff(means[:, 0]) > 1e-9])]
+    ends = p[order[[0, -1]], 0]
+    # the outermost points lie beyond the means of their groups: straight on
+    slope = np.diff(means, axis=0)[[0, -1]]
+    first = means[0] + slope[0] * (ends[0] - means[0, 0]) / slope[0, 0]
+    last = means[-1] + slope[1] * (ends[1] - means[-1, 0]) / slope[1, 0]
+    path = np.concatenate([[first], means[1:-1], [last]])
+    lengths = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(path, axis=0), axis=1))])
+    # nearest place on the polygon: by the height as well where it is steep
+    s = np.interp(p[:, 0], path[:, 0], lengths)
+    for _ in range(3):
+        foot = np.stack([np.interp(s, lengths, path[:, k]) for k in range(2)], axis=-1)
+        k = np.clip(np.searchsorted(lengths, s) - 1, 0, len(lengths) - 2)
+        tangent = (path[k + 1] - path[k]) / (lengths[k + 1] - lengths[k])[:, None]
+        s = np.clip(s + ((p - foot) * tangent).sum(axis=1), 0.0, lengths[-1])
+    return np.asarray(s)
+
+
+def _agreed(p: Array, s: Array, knots: Array, shortest: float, name: str) -> CloudFit:
+    """Fit with given knots, the points at the arc lengths of their own feet."""
+    for _ in range(50):
+        fit = _measured(p, _spline(p, s, knots, shortest), s)
+        # the knots keep their places relative to the points
+        scale = fit.length / knots[-1]
+        knots = knots * scale
+        moved = float(np.abs(fit.s - s * scale).max())
+        s = fit.s
+        if moved < _SETTLED:
+            return fit
+    raise NumericalError(
+        f"{name}: fit and projection of its points still differ by {moved:.2g} m along the curve"
+    )
+
+
+def _spline(p: Array, s: Array, knots: Array, wavelength: float) -> BSpline:
+    """Least squares with a penalty that bridges places without points."""
+    t = _padded(knots)
+    B = BSpline.design_matrix(np.clip(s, knots[0], knots[-1]), t, _DEGREE)
+    G = (B.T @ B).toarray() + _penalty(knots, len(p), wavelength)
+    return BSpline(t, np.linalg.solve(G, B.T @ p), _DEGREE)
+
+
+def _padded(knots: Array) -> Array:
+    return np.concatenate([[knots[0]] * _DEGREE, knots, [knots[-1]] * _DEGREE])
+
+
+def _penalty(knots: Array, n: int, wavelength: float) -> Array:
+    """Matrix of lambda times the integral of the squared third derivative.
+
+    A wave of length L over n/length points per metre is halved where
+    ``lambda (2 pi/L)^6 = n/length``; lambda is so chosen for the wavelength given.
+    """
+    third = _third(knots)
+    length = float(knots[-1] - knots[0])
+    factor = n / length * (wavelength / (2.0 * np.pi)) ** 6
+    return np.asarray(factor * (third.T * np.diff(knots)) @ third)
+
+
+def _third(knots: Array) -> Array:
+    """Third derivative within the intervals from the coefficients, (intervals, coefficients)."""
+    t = _padded(knots)
+    unit = BSpline(t, np.eye(len(t) - _DEGREE - 1), _DEGREE)
+    return np.asarray(unit.derivative(3)(0.5 * (knots[:-1] + knots[1:])))
+
+
+def _measured(p: Array, spline: BSpline, u: Array) -> CloudFit:
+    """Feet of the points on a spline, in arc length, with the spline over the same."""
+    end = float(spline.t[-1])
+    first, second = spline.derivative(1), spline.derivative(2)
+    u = np.clip(u, 0.0, end)
+    for _ in range(6):
+        # Newton on (c - p) . c' = 0
+        c, d, dd = spline(u), first(u), second(u)
+        off = c - p
+        slope = (d * d).sum(axis=1) + (off * dd).sum(axis=1)
+        step = (off * d).sum(axis=1) / np.where(slope > 0, slope, np.inf)
+        u = np.clip(u - step, 0.0, end)
+        if np.abs(step).max() < 1e-3 * _SETTLED:
+            break
+    c, d = spline(u), first(u)
+    tangent = d / np.linalg.norm(d, axis=1, keepdims=True)
+    normal = np.stack([-tangent[:, 1], tangent[:, 0]], axis=-1)
+    distance = ((p - c) * normal).sum(axis=1)
+    # the spline's parameter is the arc length but for what the last fit has changed
+    table = np.linspace(0.0, end, 20 * (len(np.unique(spline.t)) - 1) + 1)
+    nodes, weights = np.polynomial.legendre.leggauss(4)
+    half = 0.5 * (table[1] - table[0])
+    inner = table[:-1, None] + half * (1.0 + nodes)
+    speed = np.linalg.norm(first(inner), axis=-1)
+    arc = np.concatenate([[0.0], np.cumsum(half * (speed @ weights))])
+    s = np.interp(u, table, arc)
+    scaled = BSpline(spline.t * (arc[-1] / end), spline.c, spline.k)
+    return CloudFit(scaled, s, distance, normal, _scatter(s, distance))
+
+
+def _scatter(s: Array, distance: Array) -> float:
+    """Standard deviation about a smooth curve: second differences of neighbours along it."""
+    d = distance[np.argsort(s, kind="stable")]
+    # var(d1 - 2 d2 + d3) = 6 sigma^2
+    return max(float(np.sqrt(np.mean(np.diff(d, 2) ** 2) / 6.0)), _FLOOR)
+
+
+def _needed(p: Array, fit: CloudFit, shortest: float) -> Array:
+    """Knots that the points ask for: others are taken out one after the other.
+
+    A knot is a jump of the third derivative, ``j = J c`` with the coefficients c. Without it the
+    sum of squares grows by ``|j|^2 / (J G^-1 J^T)``, G being the Gram matrix. By Schwarz's
+    criterion a knot is worth its freedom if that exceeds ``sigma^2 log n``.
+    """
+    # means over short stretches stand for the points
+    bins = np.floor(fit.s / _BIN).astype(np.int64)
+    _, group, count = np.unique(bins, return_inverse=True, return_counts=True)
+    s = np.bincount(group, fit.s) / count
+    means = np.stack([np.bincount(group, p[:, k]) / count for k in range(2)], axis=-1)
+    limit = fit.scatter**2 * np.log(len(p))
+    knots = fit.knots
+    while len(knots) > 2:
+        inside = np.clip(s, knots[0], knots[-1])
+        B = BSpline.design_matrix(inside, _padded(knots), _DEGREE).toarray()
+        G = B.T @ (count[:, None] * B) + _penalty(knots, len(p), shortest)
+        c = np.linalg.solve(G, B.T @ (count[:, None] * means))
+        J = np.diff(_third(knots), axis=0)
+        growth = ((J @ c) ** 2).sum(axis=1) / np.einsum("ij,ji->i", J, np.linalg.solve(G, J.T))
+        out = _apart(growth, limit)
+        if not len(out):
+            break
+        knots = np.delete(knots, out + 1)
+    return knots
+
+
+def _apart(growth: Array, limit: float) -> NDArray[np.intp]:
+    """Knots below the limit, the least first, none within three of another."""
+    free = np.ones(len(growth), dtype=bool)
+    out = []
+    for k in np.argsort(growth):
+        if growth[k] >= limit:
+            break
+        if free[k]:
+            out.append(k)
+            free[max(k - 3, 0) : k + 4] = False
+    return np.array(out, dtype=np.intp)
