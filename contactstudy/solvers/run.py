@@ -87,6 +87,7 @@ def run(
     progress: Progress | None = None,
     on_state: Callable[[State], None] | None = None,
     local_compliance: np.ndarray | None = None,
+    start_tolerance: float = 1e-11,
 ) -> xr.Dataset:
     """Run and record.
 
@@ -110,6 +111,8 @@ def run(
     local_compliance : ndarray, optional
         (n_times, n_wheels) what the contact force adds to the deflection of the rail under the
         wheel beyond the track's dofs [m/N]; none when the coupling records that itself.
+    start_tolerance : float
+        Force out of balance at the start, relative to the largest load.
 
     Returns
     -------
@@ -126,7 +129,7 @@ def run(
     stations = np.empty((n_times, len(journey.stations)))
     wheel_u, wheel_a, rail_u = (np.empty(positions.shape) for _ in range(3))
 
-    start = static_start(system, coupling, assembly.external, wheels)
+    start = static_start(system, coupling, assembly.external, wheels, tolerance=start_tolerance)
     assert start.contact is not None
     recorded = {
         name: np.empty((n_times, *np.shape(value))) for name, value in start.contact.record.items()
