@@ -94,8 +94,8 @@ def wheel_section_mesh(
     rim, web = 0.5 * d.rim_width, 0.5 * d.web_thickness[-1]
     if any(d.web_offset):
         raise InputError(
-            f"wheel web_offset = {list(d.web_offset)} m: a half model needs a web that is symmetric "
-            "about the tape circle; use a whole section"
+            f"wheel web_offset = {list(d.web_offset)} m: a half model needs a web that is "
+            "symmetric about the tape circle; use a whole section"
         )
     if fine[-1] >= rim - size:
         raise InputError(
