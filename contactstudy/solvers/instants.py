@@ -1,4 +1,4 @@
-"""Fields that a surface-contact run keeps at chosen instants: pressure, deformed sections."""
+"""Fields that a surface-contact run keeps at chosen instants: the patch, deformed sections."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -11,6 +11,7 @@ from contactstudy.contact.coupling import PatchState, SurfaceCoupling
 from contactstudy.contact.points import ContactPoints
 from contactstudy.dynamics import State
 from contactstudy.solids.wheel import WheelFlexibility
+from contactstudy.solvers.patch_fields import node_coordinates, node_fields, stress_variables
 from contactstudy.track.solid import SolidTrack
 from contactstudy.track.unreduced import UnreducedTrack
 
@@ -70,12 +71,23 @@ class Instants:
         )
 
     def into(self, data: xr.Dataset, points: ContactPoints, wheel: WheelFlexibility) -> xr.Dataset:
-        """Add pressure fields and the deformed sections to a dataset."""
+        """Add the fields of the patch, stress maxima and deformed sections to a dataset."""
         if not self._kept:
             return data
         n = len(wheel.x) * len(wheel.y)
         tread = points.wheel_rows.matrix(n)
-        pressure = np.stack([points.nodal_pressure(k.state.forces) for k in self._kept])
+        fields = node_fields(
+            points,
+            [k.state.forces for k in self._kept],
+            [k.state.gap for k in self._kept],
+            "instant",
+        )
+        stresses = stress_variables(
+            points,
+            np.asarray(fields["pressure"].values),
+            self._track.recipe.poisson_ratio,
+            "instant",
+        )
         first = self._kept[0]
         moved = wheel.section_response @ (tread.T @ first.state.forces) + [0.0, first.hub]
         section = self._track.section(first.position, self._coupling.half_length)
@@ -85,11 +97,8 @@ class Instants:
             return (dim, values, {"units": unit, "long_name": text})
 
         data = data.assign(
-            pressure=(
-                ("instant", "point"),
-                pressure,
-                {"units": "Pa", "long_name": "contact pressure at the wheel's tread nodes"},
-            ),
+            **fields,
+            **stresses,
             section_wheel_nodes=(("wheel_node", "axis"), wheel.section_nodes, metre),
             section_wheel_quads=(("wheel_quad", "corner"), wheel.section_quads),
             section_wheel_displacement=(("wheel_node", "axis"), moved, metre),
@@ -106,11 +115,5 @@ class Instants:
             instant_position=coordinate(
                 np.array([k.position for k in self._kept]), "m", "position of the wheel", "instant"
             ),
-            point_x=coordinate(
-                np.repeat(wheel.x, len(wheel.y)), "m", "position relative to the wheel", "point"
-            ),
-            point_y=coordinate(
-                np.tile(wheel.y, len(wheel.x)), "m", "position across the rail", "point"
-            ),
-            point_area=coordinate(tread.T @ points.area, "m^2", "area, of both halves", "point"),
+            **node_coordinates(points),
         )

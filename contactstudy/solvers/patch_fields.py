@@ -1,0 +1,131 @@
+"""Fields on the wheel's tread nodes: pressure, gap, contact status, and the stress below them."""
+
+from collections.abc import Sequence
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from contactstudy.contact.points import ContactPoints
+from contactstudy.contact.pressure_field import SurfacePressure, recovered_pressure
+from contactstudy.contact.subsurface import StressMaximum, stress_maxima
+
+Array = NDArray[np.float64]
+
+_STATUS = "contact status: part of the node's area in contact, 0 open, 1 closed"
+_INVARIANTS = {
+    "von_mises": "largest equivalent stress of von Mises below the patch",
+    "maximum_shear": "largest shear stress below the patch",
+}
+
+
+def node_coordinates(points: ContactPoints) -> dict[str, xr.Variable]:
+    """Positions and areas of the tread nodes, dimension `point`."""
+    x, y = np.meshgrid(points.wheel_x, points.wheel_y, indexing="ij")
+    tread = points.wheel_rows.matrix(x.size)
+    halves = ", of both halves" if points.symmetric else ""
+    across = _variable(("point",), y.ravel(), "m", "position across the rail")
+    across.attrs["symmetric"] = int(points.symmetric)
+    return {
+        "point_x": _variable(("point",), x.ravel(), "m", "position relative to the wheel"),
+        "point_y": across,
+        "point_area": _variable(("point",), tread.T @ points.area, "m^2", f"area{halves}"),
+    }
+
+
+def node_fields(
+    points: ContactPoints, forces: Sequence[Array], gaps: Sequence[Array], dim: str
+) -> dict[str, xr.Variable]:
+    """Pressure, gap and contact status at the tread nodes.
+
+    Parameters
+    ----------
+    points : ContactPoints
+    forces, gaps : sequence of ndarray (nx*ny,)
+        Normal forces in N and gaps in m at the contact points, one entry an instant.
+    dim : str
+        Name of the dimension along the sequence.
+
+    Returns
+    -------
+    dict of str to xarray.Variable
+        `pressure`, `gap`, `contact_status`, each (dim, point).
+    """
+    tread = points.wheel_rows.matrix(len(points.wheel_x) * len(points.wheel_y))
+    weight = tread.T * points.area
+    weight = weight / weight.sum(axis=1, keepdims=True)
+    pressure = [points.nodal_pressure(f) for f in forces]
+    return {
+        "pressure": _variable(
+            (dim, "point"), pressure, "Pa", "contact pressure at the wheel's tread nodes"
+        ),
+        "gap": _variable(
+            (dim, "point"),
+            [weight @ g for g in gaps],
+            "m",
+            "gap at the wheel's tread nodes, negative: penetration",
+        ),
+        "contact_status": _variable(
+            (dim, "point"), [weight @ (f > 0) for f in forces], "1", _STATUS
+        ),
+    }
+
+
+def pressure_below(x: Array, y: Array, nodal: Array, symmetric: bool) -> SurfacePressure:
+    """Pressure on the whole patch, laid out flat, from values at tread nodes.
+
+    Parameters
+    ----------
+    x, y : ndarray (mx,), (my,)
+        Grid lines in m.
+    nodal : ndarray (mx*my,)
+        Pressure in Pa.
+    symmetric : bool
+        Only y >= 0 is modelled; the other half is put back.
+    """
+    grid = np.asarray(nodal).reshape(len(x), len(y))
+    if symmetric:
+        y, grid = np.r_[-y[:0:-1], y], np.hstack([grid[:, :0:-1], grid])
+    return recovered_pressure(x, y, grid)
+
+
+def stress_variables(
+    points: ContactPoints, pressure: Array, poisson_ratio: float, dim: str
+) -> dict[str, xr.Variable]:
+    """Largest stresses below the patch and where they are.
+
+    They are those of an elastic half-space under the pressure of the nodes, see
+    `contactstudy.contact.subsurface`: the stresses of bending and support are left out. The
+    position across the rail is counted along its surface.
+
+    Parameters
+    ----------
+    points : ContactPoints
+    pressure : ndarray (k, nodes)
+        In Pa.
+    poisson_ratio : float
+    dim : str
+
+    Returns
+    -------
+    dict of str to xarray.Variable
+        `von_mises` and `maximum_shear` with `_depth`, `_x` and `_y`, each (dim,); NaN for the
+        place where there is no contact.
+    """
+    found: dict[str, list[StressMaximum]] = {name: [] for name in _INVARIANTS}
+    for nodal in pressure:
+        load = pressure_below(points.wheel_x, points.wheel_y, nodal, points.symmetric)
+        for name, one in zip(_INVARIANTS, stress_maxima(load, poisson_ratio), strict=True):
+            found[name].append(one)
+    made = {}
+    for name, text in _INVARIANTS.items():
+        some = found[name]
+        made[name] = _variable((dim,), [m.value for m in some], "Pa", text)
+        for part, where in (("depth", "depth"), ("x", "x"), ("y", "y")):
+            at = [getattr(m, part) if m.value > 0 else np.nan for m in some]
+            made[f"{name}_{part}"] = _variable((dim,), at, "m", f"{where} of the {text}")
+    return made
+
+
+def _variable(dims: tuple[str, ...], values: object, unit: str, text: str) -> xr.Variable:
+    return xr.Variable(dims, np.asarray(values), {"units": unit, "long_name": text})
