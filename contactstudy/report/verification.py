@@ -1,10 +1,12 @@
 """The verification document as a PDF: what each named case found."""
 
+import math
 import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from contactstudy.figures.drawing import exact
 from contactstudy.figures.style import drawing, save
 from contactstudy.figures.verification import draw
 from contactstudy.report.quantity import percent, rounded
@@ -51,7 +53,9 @@ def content(outcomes: Sequence[Outcome], about: dict[str, Any]) -> dict[str, Any
         "name": "contactstudy verify",
         "summary": _summary(outcomes),
         "cases": [
-            {"title": o.result.title, "blocks": _case(o)} for o in outcomes if o.result is not None
+            {"title": f"{o.result.title} ({o.name})", "blocks": _case(o)}
+            for o in outcomes
+            if o.result is not None
         ],
         "provenance": [
             {
@@ -143,7 +147,7 @@ def _checks(checks: Sequence[Check]) -> Block:
 def _band(check: Check) -> str:
     if check.band is None:
         return "–"
-    return "limit" if check.band == 0.0 else percent(check.band, 2)
+    return "limit" if check.band == 0.0 else exact(100 * check.band, 3)
 
 
 def _table(content: Table) -> Block:
@@ -163,5 +167,5 @@ def _cell(cell: Cell) -> str:
     if isinstance(cell, str):
         return cell
     if isinstance(cell, float):
-        return rounded(cell, 4)
+        return exact(cell, 4) if math.isfinite(cell) else "–"
     return "–" if cell is None else str(cell)
