@@ -1,5 +1,7 @@
 """Contact points of a wheel in any position on an inclined rail."""
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -81,11 +83,13 @@ def placed_points(
     along, across = point_line(wheel_x, quadrature), point_line(wheel_s, quadrature)
     x, s = along.at, across.at
     nx, ny = len(x), len(s)
-    gap, normal_z, facing = surface_gap(placed, rail, touch, np.repeat(x, ny), np.tile(s, nx))
+    facing = surface_gap(placed, rail, touch.travel, np.repeat(x, ny), np.tile(s, nx))
     # on the wheel dA = dx ds / cos(a), x = r sin(a); projected along the rail's normal
     local = radius - wheel.point(s)[:, 1]
     cosine = np.sqrt(1.0 - (x[:, None] / local[None, :]) ** 2)
-    area = along.weight[:, None] * across.weight[None, :] / cosine * facing.reshape(nx, ny)
+    area = (
+        along.weight[:, None] * across.weight[None, :] / cosine * facing.alignment.reshape(nx, ny)
+    )
     feet, _ = placed.surface(placed.locus(s), s)
     arc, _ = rail.project(feet[:, 1:] - touch.travel * pose.vertical)
     my = len(wheel_s)
@@ -95,8 +99,8 @@ def placed_points(
         arc,
         wheel_x,
         wheel_s,
-        gap,
-        normal_z,
+        facing.gap,
+        facing.normal_z,
         area.ravel(),
         grid_facets(along, across, my),
         grid_rows(along.rows, across.rows, my),
@@ -104,30 +108,52 @@ def placed_points(
     )
 
 
+@dataclass(frozen=True, eq=False)
+class Facing:
+    """Points of a wheel's surface over a rail.
+
+    Attributes
+    ----------
+    gap : ndarray (n,)
+        Signed distance from the rail's surface [m].
+    normal : ndarray (n, 2)
+        The rail's outward unit normals at the feet, in track (Y, Z).
+    arc : ndarray (n,)
+        Feet on the rail: arc length from its crown [m].
+    x : ndarray (n,)
+        Places along the rail, from the tape circle's lowest point [m].
+    alignment : ndarray (n,)
+        ``-n_wheel . n_rail``, 1 where the surfaces are parallel.
+    """
+
+    gap: Array
+    normal: Array
+    arc: Array
+    x: Array
+    alignment: Array
+
+    @property
+    def normal_z(self) -> Array:
+        """Component of the normals along the track's vertical, (n,)."""
+        return self.normal[:, 1]
+
+
 def surface_gap(
-    wheel: PlacedWheel, rail: ProfileCurve, touch: SmoothTouch, x: Array, s: Array
-) -> tuple[Array, Array, Array]:
-    """Gap of points of the wheel's surface at the first touch.
+    wheel: PlacedWheel, rail: ProfileCurve, travel: float, x: Array, s: Array
+) -> Facing:
+    """Gap of points of the wheel's surface.
 
     Parameters
     ----------
-    wheel, rail, touch
-        The bodies and their first touch.
+    wheel, rail
+        The bodies.
+    travel : float
+        Downward travel of the wheel from its tape circle level with the crown [m].
     x, s : ndarray (n,)
         Places on the wheel [m].
-
-    Returns
-    -------
-    gap : ndarray (n,)
-        Signed distance from the rail's surface [m].
-    normal_z : ndarray (n,)
-        Component of the rail's outward normal at the foot along the track's vertical.
-    facing : ndarray (n,)
-        ``-n_wheel . n_rail``, 1 where the surfaces are parallel.
     """
     points, normals = wheel.surface(x, s)
-    vertical = wheel.pose.vertical
-    arc, gap = rail.project(points[:, 1:] - touch.travel * vertical)
+    arc, gap = rail.project(points[:, 1:] - travel * wheel.pose.vertical)
     n = rail.normal(arc)
-    facing = -(normals[:, 1] * n[:, 0] + normals[:, 2] * n[:, 1])
-    return gap, n @ vertical, facing
+    alignment = -(normals[:, 1] * n[:, 0] + normals[:, 2] * n[:, 1])
+    return Facing(gap, wheel.pose.track_of_rail(n), arc, points[:, 0], alignment)

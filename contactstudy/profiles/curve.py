@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from contactstudy.exceptions import InputError, NumericalError
 from contactstudy.profiles.geometry import Arc
 from contactstudy.profiles.pieces import ArcPiece, Frame, LinePiece, Piece
-from contactstudy.profiles.rail import rail_profile
+from contactstudy.profiles.rail import running_pieces
 from contactstudy.profiles.wheel import wheel_profile
 
 Array = NDArray[np.float64]
@@ -259,6 +259,11 @@ def rail_curve(name: str = "60E1") -> ProfileCurve:
 
     s = 0 at the crown, s grows with y; normals point up and out.
 
+    Parameters
+    ----------
+    name : str
+        ``"60E1"``, or ``"UIC60-Manchester"``, the rail of the Manchester contact benchmark.
+
     Raises
     ------
     InputError
@@ -266,7 +271,7 @@ def rail_curve(name: str = "60E1") -> ProfileCurve:
     """
     right: list[Piece] = []
     left: list[Piece] = []
-    for p in rail_profile(name).running_pieces:
+    for p in running_pieces(name):
         ends = p.start, p.end
         mirrored = (-p.end[0], p.end[1]), (-p.start[0], p.start[1])
         if isinstance(p, Arc):

@@ -3,6 +3,7 @@
 import tomllib
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,6 +13,9 @@ from contactstudy.profiles.geometry import Arc, Line, Piece, resolve_path
 from contactstudy.resources import resource
 
 NAMES = ("60E1",)
+
+# drawn as far as the head goes only
+_HEADS = ("UIC60-Manchester",)
 
 
 @dataclass(frozen=True)
@@ -193,6 +197,32 @@ def _on_axis(line: Piece) -> float:
     return float(line.z_of_y(np.zeros(1), 0)[0])
 
 
+def running_pieces(name: str) -> tuple[Piece, ...]:
+    """Right half of a rail's running surface, from the crown down the side face.
+
+    Parameters
+    ----------
+    name : str
+        One of ``profiles.rail.NAMES``, or a rail of which only the head is drawn.
+
+    Raises
+    ------
+    InputError
+        If there is no such profile.
+    """
+    if name in NAMES:
+        return rail_profile(name).running_pieces
+    if name not in _HEADS:
+        raise InputError(f"rail profile '{name}' is unknown; allowed: {', '.join(NAMES + _HEADS)}")
+    pieces = resolve_path(_drawing(name)["path"])
+    return pieces[: 1 + next(k for k, p in enumerate(pieces) if p.part == "side face")]
+
+
+def _drawing(name: str) -> dict[str, Any]:
+    with resource("meshes", "profiles", f"{name}.toml").open("rb") as file:
+        return tomllib.load(file)
+
+
 @lru_cache(maxsize=8)
 def rail_profile(name: str = "60E1") -> RailProfile:
     """Rail profile by its standard's name.
@@ -209,8 +239,7 @@ def rail_profile(name: str = "60E1") -> RailProfile:
     """
     if name not in NAMES:
         raise InputError(f"rail profile '{name}' is unknown; allowed: {', '.join(NAMES)}")
-    with resource("meshes", "profiles", f"{name}.toml").open("rb") as file:
-        data = tomllib.load(file)
+    data = _drawing(name)
     return RailProfile(
         name=data["name"],
         height=data["height"] * 1e-3,

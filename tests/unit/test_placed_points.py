@@ -69,11 +69,11 @@ def test_turning_both_bodies_together_changes_nothing(angle: float) -> None:
     same = PlacedWheel(wheel, RADIUS, pose)
     x, grid = np.meshgrid(np.linspace(-5e-3, 5e-3, 11), np.linspace(-30e-3, 10e-3, 41))
     a = surface_gap(
-        PlacedWheel(wheel, RADIUS, Pose(0.0, lateral)), RAIL, first, x.ravel(), grid.ravel()
+        PlacedWheel(wheel, RADIUS, Pose(0.0, lateral)), RAIL, first.travel, x.ravel(), grid.ravel()
     )
-    b = surface_gap(same, RAIL, turned, x.ravel(), grid.ravel())
+    b = surface_gap(same, RAIL, turned.travel, x.ravel(), grid.ravel())
     assert turned.travel == pytest.approx(touch, abs=1e-9)
-    assert b[0] == pytest.approx(a[0], abs=1e-9)
+    assert b.gap == pytest.approx(a.gap, abs=1e-9)
     assert turned.wheel_s == pytest.approx(first.wheel_s, abs=1e-5)
     assert turned.angle == pytest.approx(first.angle + angle, abs=1e-5)
 
@@ -96,17 +96,18 @@ def test_nothing_overlaps_at_first_touch_and_something_touches(case: str) -> Non
     touch = smooth_touch(wheel, RAIL)
     # the whole surface, not only the locus that the search follows
     x, s = np.meshgrid(np.linspace(-50e-3, 50e-3, 201), np.linspace(-50e-3, 40e-3, 181))
-    gap, _, _ = surface_gap(wheel, RAIL, touch, x.ravel(), s.ravel())
+    gap = surface_gap(wheel, RAIL, touch.travel, x.ravel(), s.ravel()).gap
     assert gap.min() >= -1e-15
     near = (
         touch.wheel_x + 1e-4 * np.linspace(-1, 1, 21),
         touch.wheel_s + 1e-4 * np.linspace(-1, 1, 21),
     )
     x, s = np.meshgrid(*near)
-    gap, _, facing = surface_gap(wheel, RAIL, touch, x.ravel(), s.ravel())
+    facing = surface_gap(wheel, RAIL, touch.travel, x.ravel(), s.ravel())
+    gap = facing.gap
     assert abs(gap[220]) < 2e-15
     assert gap.min() >= -2e-15
-    assert 1.0 - facing[220] < 1e-12
+    assert 1.0 - facing.alignment[220] < 1e-12
 
 
 @pytest.mark.parametrize("case", CASES)
@@ -117,7 +118,7 @@ def test_gap_is_the_distance_of_finely_sampled_surfaces(case: str) -> None:
     x, s = np.meshgrid(
         touch.wheel_x + np.linspace(-6e-3, 6e-3, 9), touch.wheel_s + np.linspace(-4e-3, 4e-3, 9)
     )
-    gap, _, _ = surface_gap(wheel, RAIL, touch, x.ravel(), s.ravel())
+    gap = surface_gap(wheel, RAIL, touch.travel, x.ravel(), s.ravel()).gap
     points, _ = wheel.surface(x.ravel(), s.ravel())
     points[:, 1:] -= touch.travel * wheel.pose.vertical
     arc = touch.arc + np.arange(-8e-3, 8e-3, step)
