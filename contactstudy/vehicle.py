@@ -6,7 +6,7 @@ the Shinkansen S300 (Y. S. Wu and Y. B. Yang, Eng. Struct. 25 (2003) 251), per w
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -151,6 +151,66 @@ def bare_wheel(mass: float, load: float) -> Vehicle:
         wheel_offsets=np.zeros(1),
         static_loads=np.array([float(load)]),
         dof_names=("wheel",),
+    )
+
+
+def with_wheel_modes(
+    vehicle: Vehicle, frequencies: np.ndarray, participation: np.ndarray, damping: float
+) -> Vehicle:
+    """Give the wheel of a vehicle elastic modes, relative to its hub.
+
+    With the mass-normalised modal displacements q after the vehicle's dofs, the kinetic energy
+    ``1/2 m_w w'^2 + L . q' w' + 1/2 q'.q'`` couples them with the hub's displacement w by their
+    participation L; the wheel's dof keeps its mass, which holds the elastic wheel's.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+        With one wheel.
+    frequencies : ndarray (m,)
+        Natural frequencies on a rigid hub [Hz].
+    participation : ndarray (m,)
+        L [sqrt(kg)].
+    damping : float
+        Ratio of all modes.
+
+    Returns
+    -------
+    Vehicle
+        The dofs of the given one first.
+
+    Raises
+    ------
+    InputError
+        If the wheel's mass is no more than the modes move.
+    """
+    wheel, L = int(vehicle.wheel_dofs[0]), np.asarray(participation, dtype=float)
+    mass, moved = float(vehicle.mass[wheel, wheel]), float(L @ L)
+    problems = not_negative("wheel_damping", damping)
+    if vehicle.n_wheels != 1:
+        problems.append(f"wheel modes: the vehicle has {vehicle.n_wheels} wheels; one is possible")
+    if not mass > moved:
+        problems.append(
+            f"wheel_mass = {mass:g} kg: must be above {moved:.4g} kg, what the wheel's elastic "
+            "modes move of it"
+        )
+    raise_if(problems)
+    omega = 2.0 * np.pi * np.asarray(frequencies, dtype=float)
+    n, m = vehicle.n_dofs, len(omega)
+    added = np.eye(m), np.diag(2.0 * damping * omega), np.diag(omega**2)
+    matrices = []
+    for own, modal in zip((vehicle.mass, vehicle.damping, vehicle.stiffness), added, strict=True):
+        whole = np.zeros((n + m, n + m))
+        whole[:n, :n], whole[n:, n:] = own, modal
+        matrices.append(whole)
+    matrices[0][wheel, n:] = matrices[0][n:, wheel] = L
+    names = vehicle.dof_names + tuple(f"wheel mode {k + 1}" for k in range(m))
+    return replace(
+        vehicle,
+        mass=matrices[0],
+        damping=matrices[1],
+        stiffness=matrices[2],
+        dof_names=names,
     )
 
 

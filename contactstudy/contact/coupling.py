@@ -1,15 +1,18 @@
 """Surface contact as the time stepper sees it: a travelling patch of contact points.
 
-With the wheel's displacement w (up), the rail's surface displacement u_n along its normal, and
-the irregularity r, the gap at point i is
+With the wheel's displacements w (its hub's, up, and those of its elastic modes, if it has any),
+which move the point by G w into the wheel, the rail's surface displacement u_n along its normal,
+and the irregularity r, the gap at point i is
 
-    g_i = gap_i + n_i w - u_n(X + x_i, y_i) - n_i r(X + x_i)
+    g_i = gap_i + (G w)_i - u_n(X + x_i, y_i) - n_i r(X + x_i)
 
-and its flexibility W = Res + scale P_r H S^-1 H^T P_r^T + P_w F_w P_w^T + scale n n^T S_ww^-1:
+and its flexibility W = Res + scale P_r H S^-1 H^T P_r^T + P_w F_w P_w^T + scale G S_ww^-1 G^T:
 H is the map from the track's dofs to its surface nodes, P_r and P_w interpolate nodes to points,
-Res is the rail's residual flexibility (`contact.residual`), F_w the wheel's relative to its hub.
+Res is the rail's residual flexibility (`contact.residual`), F_w the wheel's relative to its hub
+(without what its modes have of it). G's first column is the normal's vertical component.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -61,7 +64,7 @@ class SurfaceCoupling:
     points : ContactPoints
         Of the wheel.
     wheel_flexibility : ndarray (nodes, nodes)
-        Of the wheel's tread nodes relative to the hub, in m/N.
+        Of the wheel's tread nodes relative to the hub, in m/N; without the share of the modes.
     wheel_dof : int
         Dof of the system that is the wheel's (its hub's) displacement.
     positions : ndarray (n_times,)
@@ -80,11 +83,17 @@ class SurfaceCoupling:
     tolerance : float or None
         Largest overlap in m that an augmented Lagrangian leaves, which starts from the forces of
         the last step; None: the penalty alone.
+    mode_dofs : ndarray of int (m,)
+        Dofs of the system that are the wheel's elastic modes.
+    mode_shapes : ndarray (m, nodes)
+        Their displacement of the tread nodes into the wheel, in m per unit of the dof.
 
     Attributes
     ----------
     points, positions
         As given.
+    wheel_dofs : ndarray of int (1 + m,)
+        The hub's dof and the modes'.
     half_length : float
         Of the patches asked of the track in m.
     last : PatchState
@@ -104,6 +113,8 @@ class SurfaceCoupling:
         rail_step: float,
         rail_period: int | None = None,
         tolerance: float | None = None,
+        mode_dofs: Sequence[int] = (),
+        mode_shapes: Array | None = None,
     ) -> None:
         self._track, self.points, self._candidates = track, points, candidates
         self.wheel_dof, self.positions, self._irregularity = wheel_dof, positions, irregularity
@@ -113,6 +124,10 @@ class SurfaceCoupling:
         tread = points.wheel_rows.matrix(len(wheel_flexibility))
         self._wheel_W = tread @ wheel_flexibility @ tread.T
         self._tread, self._tread_area = tread.T, tread.T @ points.area
+        self.wheel_dofs = np.array([wheel_dof, *mode_dofs], dtype=np.int64)
+        self._wheel_map = points.normal_z[:, None]
+        if mode_shapes is not None:
+            self._wheel_map = np.column_stack([points.normal_z, tread @ mode_shapes.T])
         # two nodes beyond the outermost point, for the spline
         self.half_length = float(np.abs(points.x).max()) + 2 * rail_step
         self._active = np.zeros(n, dtype=bool)
@@ -128,12 +143,15 @@ class SurfaceCoupling:
     def attach(self, factor: Factor, scale: float) -> None:
         """Take the factor of the system and the share of the new force in a step."""
         self._factor, self._scale = factor, scale
-        unit = np.zeros(factor.n)
-        unit[self.wheel_dof] = 1.0
-        column = factor.solve(unit)
-        self._wheel_compliance = float(column[self.wheel_dof])
-        self._vehicle = np.flatnonzero(column)
-        self._vehicle_response = column[self._vehicle]
+        unit = np.zeros((factor.n, len(self.wheel_dofs)))
+        unit[self.wheel_dofs, np.arange(len(self.wheel_dofs))] = 1.0
+        columns = factor.solve(unit)
+        self._vehicle = np.flatnonzero(columns.any(axis=1))
+        self._vehicle_response = scale * columns[self._vehicle]
+        compliance = columns[self.wheel_dofs]
+        moving = self._wheel_map @ (0.5 * scale * (compliance + compliance.T)) @ self._wheel_map.T
+        # the whole wheel: its inertia and modes, and its flexibility
+        self._body_W = self._wheel_W + moving
         self._columns: dict[int, Array] = {}
         self._compliance_key: int | None = None
         self._patch_step = -1
@@ -146,7 +164,8 @@ class SurfaceCoupling:
         roughness = np.repeat(self._irregularity[step], len(points.y))
         free = (
             points.gap
-            + (u_free[self.wheel_dof] - roughness) * normal
+            + self._wheel_map @ u_free[self.wheel_dofs]
+            - roughness * normal
             - self._interpolated(patch.map @ u_free[patch.dofs])
         )
         allowed = self._candidate_points(float(((points.gap - free) / normal).max()))
@@ -157,11 +176,12 @@ class SurfaceCoupling:
         modal = patch.map.T @ surface_load
         np.subtract.at(load, patch.dofs, modal)
         total = float(normal @ forces)
-        load[self.wheel_dof] += total
+        on_wheel = forces @ self._wheel_map
+        load[self.wheel_dofs] += on_wheel
         # scale S^-1 load from the columns at hand, which is cheaper than another solution
         increment = np.zeros(len(u_free))
         increment[self._reach] = -self._scale * (modal @ self._response)
-        increment[self._vehicle] += self._scale * total * self._vehicle_response
+        increment[self._vehicle] += self._vehicle_response @ on_wheel
         self.last = PatchState(forces, surface_load, self._gap)
         record: dict[str, Array | float] = {
             "contact_force": np.array([total]),
@@ -241,9 +261,8 @@ class SurfaceCoupling:
         The dense problem holds the chosen points only. Its solution is checked at all points;
         those found overlapping join, so the restriction never changes the result.
         """
-        n, normal, patch = len(free), self.points.normal_z, self._patch
+        n, patch = len(free), self._patch
         scale, C, H = self._scale, self._dof_compliance, patch.map
-        wheel_scale = scale * self._wheel_compliance
         ny = len(self.points.y)
         for _ in range(20):
             index = np.flatnonzero(chosen)
@@ -255,8 +274,7 @@ class SurfaceCoupling:
                 PH = P @ H
                 M = PH @ (scale * C) @ PH.T
                 M += self._residual_W.block(index)
-                M += self._wheel_W[index[:, None], index]
-                M += np.outer(wheel_scale * normal[index], normal[index])
+                M += self._body_W[index[:, None], index]
                 M.flat[:: len(index) + 1] += self._compliance[index]
                 solution, overlap[index] = self._law.forces(
                     M,
@@ -269,9 +287,8 @@ class SurfaceCoupling:
                 nodal = P.T @ solution.forces
             gap = (
                 free
-                + self._wheel_W @ forces
+                + self._body_W @ forces
                 + self._residual_W @ forces
-                + wheel_scale * normal * float(normal @ forces)
                 + self._interpolated(H @ (scale * (C @ (H.T @ nodal))))
             )
             missed = ~chosen & (gap < -1e-12)
