@@ -77,6 +77,7 @@ def section_of(recipe: CellRecipe) -> tuple[SectionMesh, ExtrudedSlice, SectionR
         recipe.size,
         recipe.symmetric,
         recipe.contact_half_width,
+        coarse=recipe.coarse,
         contact_centre=recipe.contact_centre,
     )
     piece = extrude(

@@ -23,6 +23,8 @@ class CellRecipe:
         Generalised modes of an interface plane, the beam's own included.
     internal_modes : int
         Fixed-interface vibration modes of a cell.
+    coarse : float
+        Largest element size of the section away from the running surface in m.
     contact_centre : float
         Centre of the fine running surface, arc length from the crown in m; 0 if symmetric.
     symmetric : bool
@@ -37,6 +39,7 @@ class CellRecipe:
     contact_half_width: float = 0.010
     interface_modes: int = 14
     internal_modes: int = 8
+    coarse: float = 0.009
     contact_centre: float = 0.0
     symmetric: bool = True
     youngs_modulus: float = 210e9
@@ -52,6 +55,11 @@ class CellRecipe:
             problems.append(
                 f"cell length = {self.length} m: must be at least 4 elements "
                 f"({4 * self.size} m) and at most 0.5 m"
+            )
+        if not self.size <= self.coarse <= 0.03:
+            problems.append(
+                f"coarse = {self.coarse} m: must lie between the size at the running surface "
+                f"({self.size} m) and 0.03 m"
             )
         least = 3 if self.symmetric else 6
         if not least <= self.interface_modes <= 60:

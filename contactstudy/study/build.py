@@ -41,6 +41,7 @@ def recipe(study: Study) -> CellRecipe:
         profile=track.rail,
         size=solid.mesh_size,
         length=solid.cell_length,
+        coarse=solid.coarse_mesh_size,
         contact_half_width=solid.contact_half_width + RAIL_MARGIN,
         interface_modes=solid.interface_modes,
         internal_modes=solid.internal_modes,

@@ -130,6 +130,9 @@ def _solid_on_track(solid: SolidTable, track: TrackTable, meshed: bool) -> list[
     elif solid.cell_length < 4 * solid.mesh_size:
         allowed = f"must be at least 4 elements of solid.mesh_size, {4 * solid.mesh_size:g} m"
         problems.append(complaint("solid.cell_length", solid.cell_length, allowed))
+    if solid.coarse_mesh_size < solid.mesh_size:
+        allowed = f"must be at least solid.mesh_size, {solid.mesh_size:g} m"
+        problems.append(complaint("solid.coarse_mesh_size", solid.coarse_mesh_size, allowed))
     return problems
 
 

@@ -167,6 +167,7 @@ class SolidTable(Section):
     """``[solid]``: the meshed rail and wheel of surface contact."""
 
     mesh_size: q.MeshSize = 0.002
+    coarse_mesh_size: q.CoarseMeshSize = 0.009
     cell_length: q.CellLength = 0.1
     interface_modes: q.InterfaceModes = 14
     internal_modes: q.InternalModes = 8
