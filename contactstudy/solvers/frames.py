@@ -1,6 +1,6 @@
 """The patch at many instants, for an animation."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 import xarray as xr
@@ -57,3 +57,13 @@ class Frames:
             frame_position=("frame", at, {"units": "m", "long_name": "position of the wheel"}),
             **node_coordinates(self._coupling.points),
         )
+
+
+def both(*observers: Callable[[State], None]) -> Callable[[State], None]:
+    """Let several observers see every state of a run."""
+
+    def see(state: State) -> None:
+        for observer in observers:
+            observer(state)
+
+    return see

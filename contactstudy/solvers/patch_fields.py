@@ -89,6 +89,21 @@ def pressure_below(x: Array, y: Array, nodal: Array, symmetric: bool) -> Surface
     return recovered_pressure(x, y, grid)
 
 
+def instant_pressure(run: xr.Dataset, instant: int) -> SurfacePressure:
+    """Pressure on the whole patch of a run at one of its instants, for the stresses below it.
+
+    Parameters
+    ----------
+    run : xarray.Dataset
+        With `pressure` (instant, point) on a grid of tread nodes.
+    instant : int
+    """
+    x, y = (np.unique(np.asarray(run[name].values)) for name in ("point_x", "point_y"))
+    nodal = np.asarray(run["pressure"].transpose("instant", "point").values)[instant]
+    symmetric = bool(run["point_y"].attrs.get("symmetric", y[0] >= -1e-9))
+    return pressure_below(x, y, nodal, symmetric)
+
+
 def stress_variables(
     points: ContactPoints, pressure: Array, poisson_ratio: float, dim: str
 ) -> dict[str, xr.Variable]:
@@ -121,6 +136,7 @@ def stress_variables(
     for name, text in _INVARIANTS.items():
         some = found[name]
         made[name] = _variable((dim,), [m.value for m in some], "Pa", text)
+        made[name].attrs["poisson_ratio"] = poisson_ratio
         for part, where in (("depth", "depth"), ("x", "x"), ("y", "y")):
             at = [getattr(m, part) if m.value > 0 else np.nan for m in some]
             made[f"{name}_{part}"] = _variable((dim,), at, "m", f"{where} of the {text}")

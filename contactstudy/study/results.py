@@ -4,7 +4,8 @@ Layout of an output directory::
 
     result.nc       root: attributes of the study; group ``irregularity``; one group a run
     metrics.json    sizes, times, memory and error norms
-    figures/        *.pdf and *.png
+    figures/        *.pdf and *.png; patch.gif where frames are kept
+    fields/         *.vtu and *.pvd for ParaView, where instants are kept
     report.pdf
     runs/           the store of single runs (see `contactstudy.study.store`)
     <companion>/    a companion study, laid out the same way

@@ -11,6 +11,7 @@ from contactstudy.provenance import provenance
 from contactstudy.study import store
 from contactstudy.study.build import recipe
 from contactstudy.study.compute import compute
+from contactstudy.study.fields import FIELDS, write_fields
 from contactstudy.study.files import ensure_writable, writing
 from contactstudy.study.metrics import study_metrics
 from contactstudy.study.plan import Plan, plan_study
@@ -65,6 +66,7 @@ def run_study(
         write_results(results, out_dir)
         for companion in results.companions:
             write_results(companion, out_dir / companion.name)
+        write_fields(results, out_dir)
     render(results, out_dir, reporter)
     _mark_finished(plan)
     return results
@@ -119,7 +121,8 @@ def _outputs(plan: Plan) -> dict[str, str]:
     files = [out / "report.pdf"]
     for one in plan.all:
         files += [one.out_dir / RESULT_FILE, one.out_dir / METRICS_FILE]
-        files += sorted((one.out_dir / "figures").glob("*"))
+        for folder in ("figures", FIELDS):
+            files += sorted((one.out_dir / folder).glob("*"))
     return {path.relative_to(out).as_posix(): store.file_digest(path) for path in files}
 
 

@@ -27,6 +27,7 @@ _NOT_COMPUTING = (
     "figures",
     "report",
     "cli.py",
+    "study/fields.py",
     "study/forecast.py",
     "study/metrics.py",
     "study/results.py",
