@@ -64,7 +64,9 @@ class CloudFit:
         return float(np.sqrt(np.mean(self.distance**2)))
 
 
-def fit_cloud(points: Array, shortest: float = 1e-3, name: str = "profile") -> CloudFit:
+def fit_cloud(
+    points: Array, shortest: float = 1e-3, name: str = "profile", all_knots: bool = False
+) -> CloudFit:
     """Fit a curve to points along which y grows.
 
     Parameters
@@ -75,6 +77,8 @@ def fit_cloud(points: Array, shortest: float = 1e-3, name: str = "profile") -> C
         Least distance of knots [m]: nothing finer is taken from the points.
     name : str
         For messages.
+    all_knots : bool
+        Keep the knots that the points do not ask for; quicker, and enough for residuals.
 
     Returns
     -------
@@ -98,6 +102,8 @@ def fit_cloud(points: Array, shortest: float = 1e-3, name: str = "profile") -> C
             fit = _measured(p, _spline(p, s, knots, stiff * shortest), s)
             s, knots = fit.s, knots * (fit.length / knots[-1])
     fit = _agreed(p, s, knots, shortest, name)
+    if all_knots:
+        return fit
     return _agreed(p, fit.s, _needed(p, fit, shortest), shortest, name)
 
 

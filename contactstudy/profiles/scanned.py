@@ -28,7 +28,7 @@ WHEEL_DEPTH = 0.04
 _STRETCH = 0.5e-3  # of the curve, within which motions are regressed [m]
 _ROUNDS = 12
 _SETTLED = 1e-6  # change of a direction [rad] at which the fit has settled
-_POINTS = 60_000  # with which direction and axis are fitted; the curve takes all
+_POINTS = 20_000  # with which direction and axis are fitted; the curve takes all
 
 
 @dataclass(frozen=True, eq=False)
@@ -120,7 +120,7 @@ def fit_rail_head(
     part = _part(len(p))
     for _ in range(_ROUNDS):
         q = (p[part] - centre) @ _rail_axes(angles).T
-        fit = fit_cloud(q[:, 1:], shortest, name)
+        fit = fit_cloud(q[:, 1:], shortest, name, all_knots=True)
         # a turn d of the direction moves a point by -x (d_yaw, d_pitch), r by -x d.n
         change, _ = _regressed(fit, q[:, :1] * fit.normal)
         angles = angles + change
@@ -178,7 +178,7 @@ def fit_wheel_tread(
     for _ in range(_ROUNDS):
         rho, u, v = _from_axis(p[part], x0, z0, yaw)
         y = _turned(p[part], yaw)[:, 1]
-        fit = fit_cloud(np.stack([y, -rho], axis=-1), shortest, name)
+        fit = fit_cloud(np.stack([y, -rho], axis=-1), shortest, name, all_knots=True)
         # d rho = -u dx0 - v dz0 + u y dyaw, and the residual changes by -n_h d rho
         n_h = fit.normal[:, 1]
         change, covariance = _regressed(fit, np.stack([n_h * u, n_h * v, -n_h * u * y], axis=-1))

@@ -18,6 +18,7 @@ ORDER = (
     ("vehicle",),
     ("rows", "windows", "banded", "integrators", "dynamics", "statics"),
     ("contact",),
+    ("scans",),
     ("solvers",),
     ("errors", "convergence", "energy", "passing"),
     ("sweep",),

@@ -1,0 +1,116 @@
+"""Triangulated surfaces from STL, PLY and OBJ files, in metres."""
+
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+import trimesh
+from numpy.typing import NDArray
+
+from contactstudy.exceptions import InputError
+from contactstudy.scans.faults import faults
+
+UNITS = {"mm": 1e-3, "m": 1.0, "cm": 1e-2, "um": 1e-6, "in": 25.4e-3}
+"""Length units of a file, in m."""
+SUFFIXES = (".stl", ".ply", ".obj")
+
+Body = Literal["rail", "wheel"]
+
+#: What a rail head's or a wheel tread's size across (Y) and along (X) can be [m].
+_SIZES = {
+    "rail": ("a rail head", (0.02, 0.16), (0.01, 30.0)),
+    "wheel": ("a wheel tread", (0.03, 0.25), (0.01, 1.5)),
+}
+
+
+def read_mesh(path: str | Path, unit: str, body: Body) -> trimesh.Trimesh:
+    """Surface of a file, its equal vertices joined.
+
+    Parameters
+    ----------
+    path : str or Path
+        An STL (text or binary), PLY or OBJ file; all its parts together.
+    unit : str
+        Length unit of the file, one of `UNITS`.
+    body : {"rail", "wheel"}
+        What it should be: X along the rail, Y to the field side, Z up.
+
+    Returns
+    -------
+    trimesh.Trimesh
+        In m, with the file's own axes and triangles.
+
+    Raises
+    ------
+    InputError
+        Listing everything that is wrong with the file: it is missing, unreadable or without
+        triangles; values that are not finite; sizes that no rail head or tread has in this unit;
+        and the faults of `contactstudy.scans.faults.faults`.
+    """
+    file = Path(path)
+    if unit not in UNITS:
+        raise InputError(f"{file}: unit is '{unit}'; allowed: {', '.join(UNITS)}")
+    vertices, faces = _triangles(file)
+    wrong = np.flatnonzero(~np.isfinite(vertices).all(axis=1))
+    if len(wrong):
+        touched = np.flatnonzero(np.isin(faces, wrong).any(axis=1))
+        raise InputError(
+            f"{file}: {len(wrong)} vertices are not finite numbers, in {len(touched)} triangles "
+            f"(the first: {', '.join(str(k) for k in touched[:3])})"
+        )
+    mesh = _joined(vertices * UNITS[unit], faces)
+    problems = _sizes(file, mesh.extents, unit, body)
+    problems += [f"{file}: {fault}" for fault in faults(mesh, body, UNITS[unit], unit)]
+    if problems:
+        raise InputError(problems)
+    return mesh
+
+
+def _triangles(file: Path) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """Vertices in the file's unit and triangles."""
+    if file.suffix.lower() not in SUFFIXES:
+        raise InputError(f"{file}: not a scan by its name; allowed: {', '.join(SUFFIXES)}")
+    if not file.is_file():
+        raise InputError(f"{file}: there is no such file")
+    try:
+        loaded = trimesh.load_scene(file, process=False)
+        mesh = loaded.to_geometry() if len(loaded.geometry) else None
+    except Exception as error:  # every reader of trimesh has its own kinds
+        reason = str(error) or type(error).__name__
+        raise InputError(
+            f"{file}: cannot be read as {file.suffix[1:].upper()} ({reason})"
+        ) from error
+    if not isinstance(mesh, trimesh.Trimesh) or len(mesh.faces) == 0:
+        raise InputError(f"{file}: has no triangles; a scan must be triangulated, not points alone")
+    return np.asarray(mesh.vertices, dtype=float), np.asarray(mesh.faces, dtype=np.int64)
+
+
+def _joined(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> trimesh.Trimesh:
+    """Mesh whose equal vertices are one: STL repeats them in every triangle."""
+    points, number = np.unique(vertices + 0.0, axis=0, return_inverse=True)
+    return trimesh.Trimesh(points, number.ravel()[faces], process=False)
+
+
+def _sizes(file: Path, extents: NDArray[np.float64], unit: str, body: Body) -> list[str]:
+    """Complaints about sizes that are impossible in the unit."""
+    what, across, along = _SIZES[body]
+
+    def fits(factor: float) -> bool:
+        return bool(
+            across[0] <= extents[1] * factor <= across[1]
+            and along[0] <= extents[0] * factor <= along[1]
+        )
+
+    if fits(1.0):
+        return []
+    fitting = [u for u, metres in UNITS.items() if fits(metres / UNITS[unit])]
+    hint = f"; it would fit in {' or '.join(fitting)}" if fitting else ""
+    return [
+        f"{file}: with the unit {unit} it is {_length(extents[1])} wide (Y) and "
+        f"{_length(extents[0])} long (X); {what} is {_length(across[0])} to "
+        f"{_length(across[1])} wide and {_length(along[0])} to {_length(along[1])} long{hint}"
+    ]
+
+
+def _length(metres: float) -> str:
+    return f"{metres:.4g} m" if metres >= 1.0 else f"{1e3 * metres:.4g} mm"
