@@ -18,6 +18,7 @@ PACKAGES = (
     "xarray",
     "h5netcdf",
     "h5py",
+    "meshio",
     "matplotlib",
     "typst",
 )

@@ -163,6 +163,13 @@ def journey(study: Study, run: str) -> Journey:
     )
 
 
+def frames_at(study: Study) -> tuple[float, ...]:
+    """Positions of the wheel in m at which the frames of an animation are kept."""
+    table = study.solid
+    low, high = table.animation_span or (study.journey.start, study.journey.end)
+    return tuple(np.linspace(low, high, table.animation_frames).tolist())
+
+
 def integrator(run: RunTable) -> integrators.Integrator:
     """The time stepper of a run."""
     if run.stepper == "generalised_alpha":

@@ -138,11 +138,17 @@ def _solid_on_track(solid: SolidTable, track: TrackTable, meshed: bool) -> list[
 
 def _solid_on_journey(solid: SolidTable, journey: JourneyTable) -> list[str]:
     where = f"the wheel must pass it, {journey.start:g} to {journey.end:g} m"
-    return [
-        complaint(f"solid.pressure_at.{i}", x, where)
-        for i, x in enumerate(solid.pressure_at)
+    problems = [
+        complaint(f"solid.{key}.{i}", x, where)
+        for key in ("pressure_at", "animation_span")
+        for i, x in enumerate(getattr(solid, key))
         if not journey.start <= x <= journey.end
     ]
+    span = solid.animation_span
+    if span and not (len(span) == 2 and span[0] < span[1]):
+        allowed = "must be two increasing positions, from and to (m), or be left out"
+        problems.append(complaint("solid.animation_span", list(span), allowed))
+    return problems
 
 
 def runs(tables: Mapping[str, RunTable]) -> list[str]:

@@ -64,6 +64,7 @@ def _surface(study: Study, run: str, table: SurfaceRun, progress: Progress | Non
         quadrature=study.solid.contact_points,
         tolerance=study.solid.tolerance,
         pressure_at=study.solid.pressure_at,
+        frames_at=build.frames_at(study),
         integrator=build.integrator(table),
         progress=progress,
     )

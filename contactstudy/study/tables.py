@@ -179,6 +179,8 @@ class SolidTable(Section):
     penetration_tolerance: q.Length = 1e-9
     wheel: Literal["elastic", "rigid"] = "elastic"
     pressure_at: tuple[q.Position, ...] = ()
+    animation_frames: q.CountOrZero = 0
+    animation_span: tuple[q.Position, ...] = ()
 
     applies: ClassVar[dict[str, Condition]] = {
         "penetration_tolerance": ("enforcement", ("augmented",))
