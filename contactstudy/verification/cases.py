@@ -68,6 +68,7 @@ CASES: tuple[Case, ...] = (
     Case("subsurface_line", "subsurface:line_case"),
     Case("subsurface_sphere", "subsurface:sphere_case", slow=True),
     Case("subsurface_ellipse", "subsurface:ellipse_case"),
+    Case("scanned_profiles", "scans:scanned_profiles"),
 )
 
 
