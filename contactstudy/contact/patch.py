@@ -132,7 +132,7 @@ def _patch(
     overlap = np.maximum(-facing.gap.reshape(love.shape), 0.0)
     overlap = np.where(labels[tuple(nearest)] == labels[part][0], overlap, 0.0)
     # cells miss the very bottom: look closer along the locus
-    row = np.unravel_index(int(np.argmax(overlap)), love.shape)[1]
+    row = int(np.argmax(overlap)) % love.shape[1]
     ends = grid.s[max(row - 1, 0)], grid.s[min(row + 1, len(grid.s) - 1)]
     deepest = bodies.on_locus(travel, np.linspace(*ends, 81))
     bottom = int(np.argmin(deepest.gap))

@@ -69,6 +69,9 @@ CASES: tuple[Case, ...] = (
     Case("subsurface_sphere", "subsurface:sphere_case", slow=True),
     Case("subsurface_ellipse", "subsurface:ellipse_case"),
     Case("scanned_profiles", "scans:scanned_profiles"),
+    Case("tamaas_codes", "halfspace_codes:tamaas_codes", needs=("package:tamaas",)),
+    Case("manchester_published", "manchester_case:manchester_published"),
+    Case("manchester", "manchester_case:manchester", slow=True),
 )
 
 
