@@ -151,6 +151,41 @@ def verify(
 
 
 @app.command
+def export(
+    study: str,
+    *,
+    out: Annotated[Path, Parameter(name=["--out", "-o"])],
+    run: str | None = None,
+    load: str | None = None,
+    rail_length: str | None = None,
+    overrides: Overrides = (),
+) -> None:
+    """Write the static press of wheel on rail as an input file for CalculiX.
+
+    Parameters
+    ----------
+    study
+        A TOML file, or the name of a shipped study.
+    out
+        File to write; solve it with ``ccx NAME``, without the ending .inp.
+    run
+        Run of surface contact; the reference, or the first, when not given.
+    load
+        Wheel load, e.g. "80 kN"; the static load when not given.
+    rail_length
+        Length of the clamped rail, e.g. "0.6 m"; four rail cells when not given.
+    """
+    from contactstudy.study.export import export_press
+    from contactstudy.study.loading import load_study
+
+    made = export_press(load_study(study, overrides), out, run, load, rail_length)
+    print(
+        f"{out}: {len(made.mesh.nodes)} nodes, {len(made.mesh.elements)} elements, "
+        f"{made.load:.6g} N on {made.length:g} m of rail"
+    )
+
+
+@app.command
 def studies() -> None:
     """List the shipped studies."""
     import tomllib

@@ -20,6 +20,7 @@ ORDER = (
     ("contact",),
     ("scans",),
     ("solvers",),
+    ("export",),
     ("errors", "convergence", "energy", "passing"),
     ("sweep",),
     ("study",),

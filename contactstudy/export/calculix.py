@@ -1,0 +1,137 @@
+"""CalculiX input file of the static press. Units of the file: mm, N, MPa."""
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contactstudy.export.press_mesh import PressMesh
+from contactstudy.validation import positive, raise_if
+
+IntArray = NDArray[np.int64]
+
+UNITS = "mm, N, MPa"
+
+
+def calculix_input(
+    mesh: PressMesh,
+    load: float,
+    penalty: float,
+    youngs_modulus: float,
+    poisson_ratio: float,
+    start: float,
+    header: Sequence[str] = (),
+) -> str:
+    """Text of an input file that presses the wheel on the rail with a load on its hub.
+
+    The contact pressure is taken face to face (``SURFACE TO SURFACE``): CalculiX cuts the tread's
+    faces with the rail's and integrates on the pieces. Unlike the program it takes the gap between
+    the flat faces, not between the smooth profiles. The first step only closes the gap, so that
+    the hub, which nothing but the contact holds, does not fall in the second.
+
+    Parameters
+    ----------
+    mesh : PressMesh
+    load : float
+        Wheel load in N, of both halves; half of it acts on the half model.
+    penalty : float
+        Pressure per penetration in Pa/m.
+    youngs_modulus, poisson_ratio : float
+        Of both bodies, E in Pa.
+    start : float
+        Displacement of the hub in the first step in m, enough to bring some faces together
+        (Hertz's approach is). The result does not depend on it.
+    header : sequence of str
+        Comment lines.
+
+    Returns
+    -------
+    str
+
+    Raises
+    ------
+    InputError
+        If load, penalty or start is not positive.
+    """
+    raise_if(
+        positive("load", load, "N")
+        + positive("penalty", penalty, "Pa/m")
+        + positive("start", start, "m")
+    )
+    held = ("SYMMETRY, 2, 2", "ENDS, 1, 3", "BORE, 1, 2")
+    lines = [
+        *(f"** {line}".rstrip() for line in header),
+        f"** units: {UNITS}",
+        *_mesh(mesh),
+        "*MATERIAL, NAME=STEEL",
+        "*ELASTIC",
+        f"{1e-6 * youngs_modulus:.12g}, {poisson_ratio:.12g}",
+        "*SOLID SECTION, ELSET=RAIL, MATERIAL=STEEL",
+        "*SOLID SECTION, ELSET=WHEEL, MATERIAL=STEEL",
+        "*SURFACE INTERACTION, NAME=PENALTY",
+        "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR",
+        f"{1e-9 * penalty:.12g}",  # 1 Pa/m = 1e-9 MPa/mm
+        "*CONTACT PAIR, INTERACTION=PENALTY, TYPE=SURFACE TO SURFACE",
+        "TREAD, RUNNING",
+        *_hub(mesh.bore),
+        "** the hub comes down by a given amount, to close the gap",
+        "*STEP",
+        "*STATIC",
+        "*BOUNDARY",
+        *held,
+        f"HUB, 3, 3, {-1e3 * start:.6g}",
+        "*CONTACT PRINT",  # CalculiX wants energies from the first step on
+        "CELS",
+        "*END STEP",
+        "** the wheel load on the hub, half of it on this half model",
+        "*STEP",
+        "*STATIC",
+        "*BOUNDARY, OP=NEW",
+        *held,
+        "*CLOAD",
+        f"HUB, 3, {-0.5 * load:.12g}",
+        "*NODE PRINT, NSET=HUB",
+        "U",
+        "*CONTACT PRINT",
+        "CSTR, CELS",
+        "*CONTACT PRINT, SLAVE=TREAD, MASTER=RUNNING",
+        "CF",
+        "*NODE FILE",
+        "U",
+        "*EL FILE",
+        "S",
+        "*END STEP",
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def _mesh(mesh: PressMesh) -> Iterator[str]:
+    yield "*NODE, NSET=ALL"
+    for i, (x, y, z) in enumerate((1e3 * mesh.nodes).tolist(), 1):
+        yield f"{i}, {x:.12g}, {y:.12g}, {z:.12g}"
+    first = 1
+    for name, elements in (("RAIL", mesh.rail), ("WHEEL", mesh.wheel)):
+        yield f"*ELEMENT, TYPE=C3D8I, ELSET={name}"
+        for i, row in enumerate((elements + 1).tolist(), first):
+            yield f"{i}, " + ", ".join(map(str, row))
+        first += len(elements)
+    for name, nodes in (
+        ("SYMMETRY", mesh.symmetry),
+        ("ENDS", mesh.rail_ends),
+        ("BORE", mesh.bore),
+        ("HUB", mesh.bore[:1]),
+    ):
+        yield f"*NSET, NSET={name}"
+        for i in range(0, len(nodes), 10):
+            yield ", ".join(map(str, (nodes[i : i + 10] + 1).tolist())) + ","
+    for name, faces in (("TREAD", mesh.tread), ("RUNNING", mesh.running_surface)):
+        yield f"*SURFACE, NAME={name}, TYPE=ELEMENT"
+        for element, face in (faces + 1).tolist():
+            yield f"{element}, S{face}"
+
+
+def _hub(bore: IntArray) -> Iterator[str]:
+    """The bore moves vertically as one: u_z of every node is that of the first."""
+    hub, *others = (bore + 1).tolist()
+    for node in others:
+        yield from ("*EQUATION", "2", f"{node}, 3, 1., {hub}, 3, -1.")

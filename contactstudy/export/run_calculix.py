@@ -1,0 +1,101 @@
+"""Run CalculiX on an exported press, one thread, in a folder of its own."""
+
+import os
+import re
+import shutil
+import subprocess
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+
+from contactstudy.exceptions import InputError, NumericalError
+from contactstudy.export.calculix_results import CalculixPress, read_press
+
+PROGRAM = "ccx"
+
+
+@dataclass(frozen=True)
+class CalculixRun:
+    """What a run gave and cost.
+
+    Attributes
+    ----------
+    press : CalculixPress
+    version : str
+        Of CalculiX.
+    solutions : int
+        Systems of equations solved.
+    cpu_seconds : float
+        Processor time of the whole run, on one thread.
+    """
+
+    press: CalculixPress
+    version: str
+    solutions: int
+    cpu_seconds: float
+
+
+def calculix_version() -> str:
+    """Version of the CalculiX installed, e.g. "2.20".
+
+    Raises
+    ------
+    InputError
+        If there is none.
+    """
+    if shutil.which(PROGRAM) is None:
+        raise InputError(
+            f"program {PROGRAM}: not found; CalculiX is in Debian's package calculix-ccx"
+        )
+    said = subprocess.run([PROGRAM, "-v"], capture_output=True, text=True, check=False).stdout
+    found = re.search(r"[Vv]ersion\s+(\S+)", said)
+    return found.group(1) if found else "unknown"
+
+
+def run_calculix(text: str, penalty: float, timeout: float = 3600.0) -> CalculixRun:
+    """Solve an input file of `calculix_input`.
+
+    Parameters
+    ----------
+    text : str
+        The input file.
+    penalty : float
+        That it was written with, in Pa/m.
+    timeout : float
+        In s of wall time.
+
+    Raises
+    ------
+    InputError
+        If CalculiX is not installed.
+    NumericalError
+        If it does not finish.
+    """
+    version = calculix_version()
+    with tempfile.TemporaryDirectory() as name:
+        folder, began = Path(name), os.times()
+        (folder / "press.inp").write_text(text, "ascii")
+        try:
+            done = subprocess.run(
+                [PROGRAM, "press"],
+                cwd=folder,
+                env=os.environ | {"OMP_NUM_THREADS": "1"},
+                capture_output=True,
+                text=True,
+                errors="replace",
+                timeout=timeout,
+                check=False,
+            )
+        except subprocess.TimeoutExpired as error:
+            raise NumericalError(f"CalculiX: not finished within {timeout:g} s") from error
+        ended = os.times()
+        if done.returncode != 0:
+            last = " ".join(done.stdout.split()[-20:])
+            raise NumericalError(f"CalculiX: stopped with status {done.returncode}: ... {last}")
+        return CalculixRun(
+            press=read_press(folder / "press.dat", penalty),
+            version=version,
+            solutions=done.stdout.count("Factoring the system"),
+            cpu_seconds=(ended.children_user - began.children_user)
+            + (ended.children_system - began.children_system),
+        )
