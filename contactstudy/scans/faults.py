@@ -51,19 +51,19 @@ def faults(
     sound = np.setdiff1d(np.arange(len(mesh.faces)), degenerate)
     problems = []
     if len(degenerate):
-        problems.append(f"{len(degenerate)} degenerate triangles, without area{at(degenerate)}")
+        problems.append(f"{triangles(len(degenerate), 'degenerate')}, without area{at(degenerate)}")
     if not len(sound):
         return problems
     faces = np.asarray(mesh.faces, dtype=np.int64)[sound]
     many, flipped, sheet = _orientation(faces)
     if len(many):
         problems.append(
-            f"{len(many)} triangles at edges that more than two share (not a surface)"
+            f"{triangles(len(many))} at edges that more than two share (not a surface)"
             f"{at(sound[many])}"
         )
     if len(flipped):
         problems.append(
-            f"{len(flipped)} flipped triangles, against the winding of their neighbours"
+            f"{triangles(len(flipped), 'flipped')}, against the winding of the neighbours"
             f"{at(sound[flipped])}"
         )
     problems += _inward(mesh, sound, sheet, body, at)
@@ -143,9 +143,14 @@ def _inward(
         return []
     where = "up" if body == "rail" else "down"
     return [
-        f"{int(turned.sum())} triangles turned inside out: the normals of the running surface must "
+        f"{triangles(int(turned.sum()))} turned inside out: the normals of the running surface must "
         f"point out of the body ({where}){at(sound[turned])}"
     ]
+
+
+def triangles(count: int, kind: str = "") -> str:
+    """Their number in words of a sentence."""
+    return f"{count} {kind}{' ' * bool(kind)}triangle{'s' * (count != 1)}"
 
 
 def _places(centres: Array, which: IntArray, unit: str) -> str:

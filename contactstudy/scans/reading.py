@@ -73,8 +73,9 @@ def _triangles(file: Path) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     if not file.is_file():
         raise InputError(f"{file}: there is no such file")
     try:
-        loaded = trimesh.load_scene(file, process=False)
-        mesh = loaded.to_geometry() if len(loaded.geometry) else None
+        with np.errstate(all="ignore"):  # what is not a number is looked for below
+            loaded = trimesh.load_scene(file, process=False)
+            mesh = loaded.to_geometry() if len(loaded.geometry) else None
     except Exception as error:  # every reader of trimesh has its own kinds
         reason = str(error) or type(error).__name__
         raise InputError(

@@ -16,6 +16,7 @@ from contactstudy.profiles.scanned import (
     fit_rail_head,
     fit_wheel_tread,
 )
+from contactstudy.scans.faults import triangles
 from contactstudy.scans.reading import Body, read_mesh
 
 _NEAR = 10.0  # residual limits within which a facet belongs to the fitted surface
@@ -113,8 +114,9 @@ def scanned_surface(
     flipped = _facing_inwards(scan, residual_limit)
     if len(flipped):
         problems.append(
-            f"{path}: {len(flipped)} flipped triangles on the running surface, loose ones whose "
-            f"normals point into the body (the first: {', '.join(str(k) for k in flipped[:3])})"
+            f"{path}: {triangles(len(flipped), 'flipped')} on the running surface, not joined to "
+            "their neighbours, whose normals point into the body (the first: "
+            f"{', '.join(str(k) for k in flipped[:3])})"
         )
     if problems:
         raise InputError(problems)
