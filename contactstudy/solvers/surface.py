@@ -9,16 +9,14 @@ from numpy.typing import NDArray
 
 from contactstudy.banded import Factor
 from contactstudy.contact.coupling import SurfaceCoupling
-from contactstudy.contact.points import ContactPoints, contact_points, rolling_drop
 from contactstudy.contact.press import PressCurve, press_curve
 from contactstudy.contact.quadrature import Quadrature
 from contactstudy.contact.residual import ResidualFlexibility, patch_splines
-from contactstudy.contact.search import CandidateList, FacetSearch, grid_surface
 from contactstudy.dynamics import Integrator, average_acceleration
 from contactstudy.irregularity import Profile, faded
-from contactstudy.profiles.rail import rail_profile
-from contactstudy.profiles.wheel import wheel_profile
 from contactstudy.solids.wheel import WheelFlexibility, WheelRecipe, rigid_wheel
+from contactstudy.solvers.geometry import Geometry, candidate_list, mesh_problems, wheel_points
+from contactstudy.solvers.frames import Frames, both
 from contactstudy.solvers.instants import Instants
 from contactstudy.solvers.journey import Journey
 from contactstudy.solvers.run import Assembly, Progress, run
@@ -40,10 +38,12 @@ def surface_contact(
     irregularity: Profile,
     journey: Journey,
     *,
+    geometry: Geometry | None = None,
     penalty: float = 1e16,
     quadrature: Quadrature = "gauss",
     tolerance: float | None = None,
     pressure_at: Sequence[float] = (),
+    frames_at: Sequence[float] = (),
     integrator: Integrator | None = None,
     progress: Progress | None = None,
 ) -> xr.Dataset:
@@ -62,6 +62,9 @@ def surface_contact(
         wheel's start. It is evaluated at every contact point's own X.
     journey : Journey
         Where, how fast, which steps.
+    geometry : Geometry, optional
+        Profiles and position of a whole wheel on a whole rail section: inclination, lateral
+        shift, yaw. Half sections are centred and upright.
     penalty : float
         Pressure per penetration in Pa/m.
     quadrature : {"gauss", "nodes"}
@@ -71,6 +74,8 @@ def surface_contact(
         None: the penalty alone.
     pressure_at : sequence of float
         Positions of the wheel in m at whose nearest step the pressure field is kept.
+    frames_at : sequence of float
+        The same for the frames of an animation: pressure and contact status only.
     integrator : Integrator, optional
         Average acceleration when not given.
     progress : callable, optional
@@ -81,9 +86,8 @@ def surface_contact(
     xarray.Dataset
         See `contactstudy.solvers.dataset`; in addition `contact_area`, `peak_pressure` (at the
         wheel's tread nodes), `penetration` (largest), the static press of this very geometry
-        (`press_force`, `press_approach` from the hub to the rail's centre line, `press_penetration`),
-        and with
-        `pressure_at` the field `pressure` (instant, point) at the tread nodes and the deformed
+        (`press_force`, `press_approach` from the hub to the rail's centre line, `press_penetration`), of a whole section
+        the lateral motion and roll of the rail under the wheel, and with `pressure_at` the field `pressure` (instant, point) at the tread nodes and the deformed
         sections of wheel and rail at the first instant.
 
     Raises
@@ -99,24 +103,35 @@ def surface_contact(
     problems = journey.problems_on(track.track, vehicle) + positive("penalty", penalty, "Pa/m")
     if tolerance is not None:
         problems += positive("tolerance of the penetration", tolerance, "m")
-    problems += _problems(track, wheel, vehicle, quadrature)
+    problems += mesh_problems(track, wheel, wheel_points(wheel, quadrature, geometry), geometry)
+    if vehicle.n_wheels != 1:
+        problems.append(
+            f"surface contact: the vehicle has {vehicle.n_wheels} wheels; exactly one is possible"
+        )
     problems += [
-        f"pressure_at = {x:g} m: the wheel must pass it, from {journey.start:g} to "
-        f"{journey.end:g} m"
-        for x in pressure_at
+        f"{name} = {x:g} m: the wheel must pass it, from {journey.start:g} to {journey.end:g} m"
+        for name, at in (("pressure_at", pressure_at), ("frames_at", frames_at))
+        for x in at
         if not journey.start <= x <= journey.end
     ]
     raise_if(problems)
 
     assembly = Assembly(track, vehicle)
     coupling, r = surface_coupling(
-        assembly, wheel, irregularity, journey, penalty, quadrature, tolerance
+        assembly, wheel, irregularity, journey, penalty, quadrature, tolerance, geometry
     )
     points = coupling.points
     kept = Instants(coupling, track, coupling.positions, pressure_at)
+    frames = Frames(coupling, frames_at)
     load = float(assembly.static_loads[0])
     pressed = geometry_press(
-        track, wheel, load * PRESS_LOADS, penalty, quadrature=quadrature, tolerance=tolerance
+        track,
+        wheel,
+        load * PRESS_LOADS,
+        penalty,
+        quadrature=quadrature,
+        tolerance=tolerance,
+        geometry=geometry,
     )
     elastic = bool(wheel.flexibility.any())
     data = run(
@@ -138,7 +153,7 @@ def surface_contact(
             "contact_points": len(points.gap),
         },
         progress=progress,
-        on_state=kept,
+        on_state=both(kept, frames),
     )
     data["rail_displacement"] += data["centre_residual"]
     data = data.drop_vars("centre_residual")
@@ -153,7 +168,7 @@ def surface_contact(
         pressed.penetration,
         {"units": "m", "long_name": "largest penetration"},
     )
-    return kept.into(data, points, wheel)
+    return frames.into(kept.into(data, points, wheel))
 
 
 def surface_coupling(
@@ -164,6 +179,7 @@ def surface_coupling(
     penalty: float = 1e16,
     quadrature: Quadrature = "gauss",
     tolerance: float | None = None,
+    geometry: Geometry | None = None,
 ) -> tuple[SurfaceCoupling, Array]:
     """Join the contact points of a wheel to all positions of a journey.
 
@@ -177,7 +193,7 @@ def surface_coupling(
     journey : Journey
     penalty : float
         In Pa/m.
-    quadrature, tolerance
+    quadrature, tolerance, geometry
         As in `surface_contact`.
 
     Returns
@@ -186,7 +202,7 @@ def surface_coupling(
     irregularity : ndarray (n_times, 1)
         r under the wheel, faded in from its start, in m.
     """
-    track, points = assembly.track, wheel_points(wheel, quadrature)
+    track, points = assembly.track, wheel_points(wheel, quadrature, geometry)
     assert isinstance(track, SolidTrack | UnreducedTrack)
     positions = journey.wheel_positions(assembly.vehicle.wheel_offsets)
     profile = faded(irregularity, float(positions[0, 0]), journey.fade_in)
@@ -197,43 +213,13 @@ def surface_coupling(
         int(assembly.wheel_dofs[0]),
         positions[:, 0],
         profile(positions + points.x),
-        candidate_list(track, wheel),
+        candidate_list(track, wheel, geometry),
         penalty,
         track.thickness,
         track.residual_period,
         tolerance,
     )
     return coupling, profile(positions)
-
-
-def wheel_points(wheel: WheelFlexibility, quadrature: Quadrature = "gauss") -> ContactPoints:
-    """Contact points of a centred wheel on the rail of its recipe."""
-    recipe = wheel.recipe
-    return contact_points(
-        wheel.x,
-        wheel.y,
-        recipe.dimensions.radius,
-        rail_profile(recipe.rail_profile),
-        wheel_profile(recipe.profile),
-        quadrature=quadrature,
-    )
-
-
-def candidate_list(track: SolidTrack | UnreducedTrack, wheel: WheelFlexibility) -> CandidateList:
-    """Search of the wheel's tread facets over the rail's running surface."""
-    recipe = wheel.recipe
-    rail, radius = rail_profile(recipe.rail_profile), recipe.dimensions.radius
-    drop = rolling_drop(wheel.x, wheel_profile(recipe.profile).height(wheel.y), radius)
-    reach = 1.5 * float(wheel.x[-1])
-    y = track.surface_y
-    top = np.broadcast_to(rail.running_surface(y), (2, len(y)))
-    step = max(float(np.diff(wheel.x).max()), float(np.diff(y).max()))
-    return CandidateList(
-        FacetSearch(grid_surface(wheel.x, wheel.y, drop)),
-        grid_surface(np.array([-reach, reach]), y, top),
-        y,
-        sagitta=step**2 / 8 * (1 / radius + 1 / rail.crown_radius),
-    )
 
 
 def geometry_press(
@@ -244,6 +230,7 @@ def geometry_press(
     x: float | None = None,
     quadrature: Quadrature = "gauss",
     tolerance: float | None = None,
+    geometry: Geometry | None = None,
 ) -> PressCurve:
     """Static press of the wheel on the rail, measured from the hub to the rail's centre line.
 
@@ -264,14 +251,14 @@ def geometry_press(
         In Pa/m.
     x : float, optional
         Position on the track in m; the middle of its middle bay when not given.
-    quadrature, tolerance
+    quadrature, tolerance, geometry
         As in `surface_contact`.
 
     Returns
     -------
     PressCurve
     """
-    points = wheel_points(wheel, quadrature)
+    points = wheel_points(wheel, quadrature, geometry)
     x = (track.track.n_bays // 2 + 0.5) * track.track.bay_length if x is None else x
     half_length = float(np.abs(points.x).max()) + 2 * track.thickness
     patch = track.patch(x, half_length)
@@ -293,29 +280,3 @@ def geometry_press(
     reference = P @ (patch.map @ (patch.centre_map[0] @ solved[patch.centre_dofs]))
     reference += P @ patch.centre_residual[0]
     return press_curve(points, W, loads, penalty, reference, tolerance)
-
-
-def _problems(
-    track: SolidTrack | UnreducedTrack,
-    wheel: WheelFlexibility,
-    vehicle: Vehicle,
-    quadrature: Quadrature,
-) -> list[str]:
-    problems = []
-    if vehicle.n_wheels != 1:
-        problems.append(
-            f"surface contact: the vehicle has {vehicle.n_wheels} wheels; exactly one is possible"
-        )
-    if wheel.recipe.rail_profile != track.recipe.profile:
-        problems.append(
-            f"surface contact: the wheel was made for rail {wheel.recipe.rail_profile}, the track "
-            f"has {track.recipe.profile}"
-        )
-    outermost = float(wheel_points(wheel, quadrature).y[-1])
-    if outermost > track.surface_y[-1]:
-        problems.append(
-            f"wheel contact_half_width = {wheel.y[-1]:.4g} m: its outermost contact points, at "
-            f"{outermost:.4g} m, lie beyond the rail's finely meshed running surface, "
-            f"{track.surface_y[-1]:.4g} m wide on each side"
-        )
-    return problems

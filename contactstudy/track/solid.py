@@ -93,6 +93,11 @@ class SolidTrack(AssembledTrack):
         return self.cell.surface_y
 
     @property
+    def surface_arc(self) -> Array:
+        """Arc lengths of the running-surface nodes from the crown [m]."""
+        return self.cell.surface_arc
+
+    @property
     def n_cells(self) -> int:
         """Number of cells."""
         return round(self.track.length / self.recipe.length)

@@ -138,6 +138,11 @@ class UnreducedTrack(AssembledTrack):
         """Lateral positions of the running-surface nodes [m]."""
         return self._rows.surface_y
 
+    @property
+    def surface_arc(self) -> Array:
+        """Arc lengths of the running-surface nodes from the crown [m]."""
+        return self._rows.surface_arc
+
     @cached_property
     def _section(self) -> tuple[SectionMesh, ExtrudedSlice, SectionRows]:
         return section_of(self.recipe)

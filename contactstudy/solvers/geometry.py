@@ -1,0 +1,141 @@
+"""Where the wheel stands on the rail: contact points and candidate facets of the two surfaces."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contactstudy.contact.facets import placed_candidates
+from contactstudy.contact.placed import placed_points
+from contactstudy.contact.points import ContactPoints, contact_points, rolling_drop
+from contactstudy.contact.pose import PlacedWheel, Pose
+from contactstudy.contact.quadrature import Quadrature
+from contactstudy.contact.search import CandidateList, FacetSearch, grid_surface
+from contactstudy.contact.smooth_touch import SmoothTouch, smooth_touch
+from contactstudy.profiles.curve import ProfileCurve, rail_curve, wheel_curve
+from contactstudy.profiles.rail import rail_profile
+from contactstudy.profiles.wheel import wheel_profile
+from contactstudy.solids.wheel import WheelFlexibility
+from contactstudy.track.solid import SolidTrack
+from contactstudy.track.unreduced import UnreducedTrack
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Geometry:
+    """Smooth surfaces of rail and wheel, and their position to each other.
+
+    Parameters
+    ----------
+    rail, wheel : ProfileCurve
+    radius : float
+        Rolling radius of the wheel at the tape circle [m].
+    pose : Pose
+    """
+
+    rail: ProfileCurve
+    wheel: ProfileCurve
+    radius: float
+    pose: Pose = Pose()
+
+    @classmethod
+    def of(cls, wheel: WheelFlexibility, pose: Pose | None = None) -> "Geometry":
+        """Of the profiles that a wheel's recipe names."""
+        recipe = wheel.recipe
+        return cls(
+            rail_curve(recipe.rail_profile),
+            wheel_curve(recipe.profile),
+            recipe.dimensions.radius,
+            pose or Pose(),
+        )
+
+    @cached_property
+    def touch(self) -> SmoothTouch:
+        """First touch of the smooth surfaces when the wheel is lowered."""
+        return smooth_touch(PlacedWheel(self.wheel, self.radius, self.pose), self.rail)
+
+
+def wheel_points(
+    wheel: WheelFlexibility, quadrature: Quadrature = "gauss", geometry: Geometry | None = None
+) -> ContactPoints:
+    """Contact points of a wheel.
+
+    Parameters
+    ----------
+    wheel : WheelFlexibility
+        Half of it, for a wheel centred on an upright rail, or the whole one.
+    quadrature : {"gauss", "nodes"}
+    geometry : Geometry, optional
+        Of a whole wheel; the recipe's profiles, centred and upright, when not given.
+    """
+    recipe = wheel.recipe
+    if recipe.symmetric:
+        return contact_points(
+            wheel.x,
+            wheel.y,
+            recipe.dimensions.radius,
+            rail_profile(recipe.rail_profile),
+            wheel_profile(recipe.profile),
+            quadrature=quadrature,
+        )
+    g = geometry or Geometry.of(wheel)
+    return placed_points(
+        wheel.x, wheel.y, g.radius, g.rail, g.wheel, g.pose, g.touch, quadrature=quadrature
+    )
+
+
+def candidate_list(
+    track: SolidTrack | UnreducedTrack, wheel: WheelFlexibility, geometry: Geometry | None = None
+) -> CandidateList:
+    """Search of the wheel's tread facets over the rail's running surface."""
+    recipe = wheel.recipe
+    if not recipe.symmetric:
+        g = geometry or Geometry.of(wheel)
+        return placed_candidates(wheel.x, wheel.y, g.radius, g.rail, g.wheel, g.pose, g.touch)
+    rail, radius = rail_profile(recipe.rail_profile), recipe.dimensions.radius
+    drop = rolling_drop(wheel.x, wheel_profile(recipe.profile).height(wheel.y), radius)
+    reach = 1.5 * float(wheel.x[-1])
+    y = track.surface_y
+    top = np.broadcast_to(rail.running_surface(y), (2, len(y)))
+    step = max(float(np.diff(wheel.x).max()), float(np.diff(y).max()))
+    return CandidateList(
+        FacetSearch(grid_surface(wheel.x, wheel.y, drop)),
+        grid_surface(np.array([-reach, reach]), y, top),
+        y,
+        sagitta=step**2 / 8 * (1 / radius + 1 / rail.crown_radius),
+    )
+
+
+def mesh_problems(
+    track: SolidTrack | UnreducedTrack,
+    wheel: WheelFlexibility,
+    points: ContactPoints,
+    geometry: Geometry | None,
+) -> list[str]:
+    """What speaks against pressing this wheel on this rail."""
+    half, recipe = track.recipe.symmetric, wheel.recipe
+    problems = []
+    if recipe.rail_profile != track.recipe.profile:
+        problems.append(
+            f"surface contact: the wheel was made for rail {recipe.rail_profile}, the track "
+            f"has {track.recipe.profile}"
+        )
+    if half != recipe.symmetric:
+        kinds = {True: "half", False: "whole"}
+        problems.append(
+            f"surface contact: the rail is a {kinds[half]} section, the wheel a "
+            f"{kinds[recipe.symmetric]} one; both must be the same"
+        )
+    if recipe.symmetric and geometry is not None:
+        problems.append("surface contact: a half section has no pose; mesh whole sections")
+    first, last = (-np.inf if half else track.surface_arc[0]), track.surface_arc[-1]
+    if points.arc.min() < first or points.arc.max() > last:
+        problems.append(
+            f"wheel contact_half_width = {recipe.contact_half_width:.4g} m: its contact points "
+            f"lie from {points.arc.min():.4g} to {points.arc.max():.4g} m of the rail's arc "
+            "length, beyond the finely meshed running surface, "
+            f"{track.surface_arc[0]:.4g} to {track.surface_arc[-1]:.4g} m"
+        )
+    return problems
