@@ -120,7 +120,7 @@ def wheel_modes(recipe: ModesRecipe) -> WheelModes:
     material = wheel.youngs_modulus, wheel.poisson_ratio, wheel.density
     # somewhat more than wanted, so that the highest ones are not left without neighbours
     families = ring_families(section, free, steps[-1], material, 1.1 * recipe.highest)
-    n_loaded = len(wheel.x) // 2 + 1
+    n_loaded, n_tread = len(wheel.x) // 2 + 1, len(wheel.x) * len(wheel.y)
     loads = normal_loads(wheel, section, angles[:n_loaded])
     found = []
     for symmetric in (True, False):
@@ -133,22 +133,22 @@ def wheel_modes(recipe: ModesRecipe) -> WheelModes:
         # the half ring and its mirror image
         M = 2 * _gram(planes, [mass[step] for step in steps])
         K = 2 * _gram(planes, [stiffness[step] for step in steps])
-        waves = np.concatenate([np.full(len(f.squares), f.waves) for f in basis])
+        waves = np.array([f.waves for f in basis for _ in f.squares], dtype=np.int64)
         m = len(waves)
-        squares, vectors = sl.eigh(K[:m, :m], M[:m, :m])
+        squares, vectors = sl.eigh(K[:m, :m], M[:m, :m]) if m else (np.zeros(0), np.zeros((0, 0)))
         kept = squares <= (2 * np.pi * recipe.highest) ** 2
         vectors = vectors[:, kept]
-        leading = np.abs(vectors).argmax(axis=0)
+        leading = np.abs(vectors).argmax(axis=0) if kept.any() else np.zeros(0, dtype=np.int64)
         vectors = vectors * np.sign(vectors[leading, np.arange(len(leading))])
         moved = [plane[:, :m] @ vectors for plane in planes[:n_loaded]]
         right = np.stack([load @ u for load, u in zip(loads, moved, strict=True)])  # (nx', ny, m)
         left = right[:0:-1] if symmetric else -right[:0:-1]
-        bottom = moved[0].reshape(len(section.nodes), 3, -1)
+        bottom = moved[0].reshape(len(section.nodes), 3, vectors.shape[1])
         found.append(
             {
                 "frequencies": np.sqrt(squares[kept]) / (2 * np.pi),
                 "waves": waves[leading],
-                "shapes": np.concatenate([left, right]).reshape(-1, right.shape[2]).T,
+                "shapes": np.concatenate([left, right]).reshape(n_tread, vectors.shape[1]).T,
                 "participation": vectors.T @ M[:m, m] * symmetric,
                 "section_shapes": np.stack([bottom[:, 1], -bottom[:, 0]], axis=1).T.swapaxes(1, 2),
                 "rigid": M[m:, m],

@@ -52,7 +52,8 @@ def whole_wheel_section(
     dimensions : WheelDimensions
         Rim, web and hub.
     curve : ProfileCurve
-        Tread and flange; goes on straight to the faces of the rim where it ends before them.
+        Tread and flange; goes on straight to the faces of the rim where it ends before them,
+        and is cut there where it ends beyond.
     size : float
         Element size in the fine part in m, along the profile and in depth.
     contact_centre : float
@@ -136,7 +137,7 @@ def _rim(
 
 
 def _ends(d: WheelDimensions, curve: ProfileCurve) -> tuple[float, float]:
-    """Arc lengths at which the profile, continued straight, meets the faces of the rim."""
+    """Arc lengths at which the profile, cut or continued straight, meets the rim's faces."""
     ends, problems = [], []
     for s, face, side in (
         (curve.s_range[0], d.rim_inside, -1.0),
@@ -145,10 +146,7 @@ def _ends(d: WheelDimensions, curve: ProfileCurve) -> tuple[float, float]:
         y, normal = float(curve.point(s)[0]), curve.normal(s)
         missing = side * (face - y)
         if missing < -1e-6:
-            problems.append(
-                f"wheel profile {curve.name} reaches to y = {y:.6g} m, beyond the rim's face at "
-                f"{face:.6g} m"
-            )
+            s = float(curve.arc_of_y(face))
         elif missing > 1e-6 and -normal[1] < np.sqrt(0.5):
             problems.append(
                 f"wheel profile {curve.name} ends at y = {y:.6g} m on a slope steeper than 45 "

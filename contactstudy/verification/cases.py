@@ -65,6 +65,8 @@ CASES: tuple[Case, ...] = (
     Case("hertz_sphere", "hertz:sphere"),
     Case("hertz_ellipses", "hertz:ellipses", slow=True),
     Case("ssnv104", "hertz:ssnv104"),
+    Case("reduction", "reduction:passage", slow=True),
+    Case("reduction_coarse", "reduction:short_passage"),
     Case("subsurface_line", "subsurface:line_case"),
     Case("subsurface_sphere", "subsurface:sphere_case", slow=True),
     Case("subsurface_ellipse", "subsurface:ellipse_case"),
@@ -72,6 +74,9 @@ CASES: tuple[Case, ...] = (
     Case("tamaas_codes", "halfspace_codes:tamaas_codes", needs=("package:tamaas",)),
     Case("manchester_published", "manchester_case:manchester_published"),
     Case("manchester", "manchester_case:manchester", slow=True),
+    Case("wheel_disc", "wheel:disc"),
+    Case("wheel_modes", "wheel:brute_force", slow=True),
+    Case("wheel_statics", "wheel_statics:statics", slow=True),
 )
 
 

@@ -1,0 +1,102 @@
+"""Elastic modes of the wheel: dynamic flexibility by brute force, residual, masses."""
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+from scipy.sparse.linalg import splu
+
+from contactstudy.exceptions import InputError
+from contactstudy.solids.wheel import WheelFlexibility, WheelRecipe, elastic_wheel
+from contactstudy.solids.wheel_modes import (
+    ModesRecipe,
+    WheelModes,
+    residual_flexibility,
+    wheel_modes,
+)
+from contactstudy.verification.wheel import whole_ring
+
+HALF = WheelRecipe(size=0.008, contact_half_length=0.016, contact_half_width=0.016)
+WHOLE = replace(HALF, profile="S1002", symmetric=False)
+
+
+@cache
+def wheel(recipe: WheelRecipe) -> WheelFlexibility:
+    return elastic_wheel(recipe)
+
+
+@cache
+def modes(recipe: WheelRecipe, highest: float = 5000.0) -> WheelModes:
+    return wheel_modes(ModesRecipe(recipe, highest))
+
+
+@pytest.mark.slow
+def test_dynamic_flexibility_is_that_of_the_whole_ring() -> None:
+    recipe = HALF
+    section, found = recipe.section(), modes(recipe, 12000.0)
+    K, M, free = whole_ring(recipe)
+    K, M = 2 * K, 2 * M  # both halves
+    omega = 2 * np.pi * 900.0
+    solve = splu((K - omega**2 * M)[free][:, free].tocsc()).solve
+    # a unit load at the middle of the tread (up), and the hub moving up by 1 m
+    load, up = np.zeros(K.shape[0]), np.tile([0.0, 0.0, 1.0], K.shape[0] // 3)
+    node = int(section.tread[0])
+    load[3 * node + 2] = 1.0
+    by_load, by_hub = (solve(f[free]) for f in (load, omega**2 * (M @ up)))
+    at = np.searchsorted(free, 3 * node + 2)
+    middle = len(recipe.x) // 2 * len(recipe.y)
+    rest = residual_flexibility(wheel(recipe), found)
+    gain = 1 / (found.stiffness - omega**2)
+    phi = found.shapes[:, middle]
+    direct = rest.flexibility[middle, middle] + phi @ (gain * phi)
+    carried = omega**2 * phi @ (gain * found.participation)
+    print(f"{direct:.6e}, brute force {by_load[at]:.6e} m/N")
+    print(f"of the hub {carried:.6e}, brute force {by_hub[at]:.6e}")
+    assert direct == pytest.approx(by_load[at], rel=2e-4)
+    # the modes left out follow the hub statically
+    assert carried == pytest.approx(by_hub[at], rel=0.02)
+
+
+@pytest.mark.parametrize("recipe", [HALF, WHOLE])
+def test_the_residual_is_positive_and_completes_the_modes(recipe: WheelRecipe) -> None:
+    full, found = wheel(recipe), modes(recipe)
+    rest = residual_flexibility(full, found)
+    assert np.linalg.eigvalsh(rest.flexibility).min() > 0
+    shared = found.shapes.T @ (found.shapes / found.stiffness[:, None])
+    np.testing.assert_allclose(rest.flexibility + shared, full.flexibility, rtol=1e-12)
+    # the section under the middle of the tread moves as the tread itself
+    k = recipe.section().tread[0 if recipe.symmetric else len(recipe.y) // 2]
+    n = len(recipe.x) // 2 * len(recipe.y) + (0 if recipe.symmetric else len(recipe.y) // 2)
+    upward = found.section_shapes[:, k, 1] if recipe.symmetric else None
+    if upward is not None:
+        np.testing.assert_allclose(upward, found.shapes[:, n], atol=1e-12)
+
+
+def test_symmetries_come_in_pairs() -> None:
+    found = modes(WHOLE)
+    nx, ny = len(WHOLE.x), len(WHOLE.y)
+    shapes = found.shapes.reshape(-1, nx, ny)
+    even = np.abs(shapes - shapes[:, ::-1]).max(axis=(1, 2)) < 1e-9 * np.abs(shapes).max()
+    odd = np.abs(shapes + shapes[:, ::-1]).max(axis=(1, 2)) < 1e-9 * np.abs(shapes).max()
+    assert np.all(even | odd)
+    for waves in range(1, 4):
+        at = np.flatnonzero(found.waves == waves)
+        pairs = found.frequencies[at].reshape(-1, 2)
+        np.testing.assert_allclose(pairs[:, 0], pairs[:, 1], rtol=0.01)
+    # only one wave round the wheel moves its centre of mass
+    assert np.abs(found.participation[(found.waves != 1) | odd]).max() < 0.5
+    assert 0.7 * found.mass < (found.participation**2).sum() < found.mass
+
+
+def test_frequencies_below_the_limit_do_not_depend_on_it() -> None:
+    low, high = modes(HALF, 3000.0), modes(HALF)
+    assert len(low.frequencies) < len(high.frequencies)
+    np.testing.assert_allclose(low.frequencies, high.frequencies[: len(low.frequencies)], rtol=2e-3)
+
+
+def test_modes_of_another_wheel_are_refused() -> None:
+    with pytest.raises(InputError, match="another wheel"):
+        residual_flexibility(wheel(HALF), modes(WHOLE))
+    with pytest.raises(InputError, match="highest frequency"):
+        ModesRecipe(HALF, -1.0)
