@@ -15,7 +15,7 @@ from contactstudy.contact.press import (
     contact_ellipse,
     penalty_compliance,
 )
-from contactstudy.contact.quadrature import grid_facets, point_line
+from contactstudy.contact.quadrature import Quadrature, grid_facets, point_line
 from contactstudy.contact.surface import PatchForces, contact_forces, press
 from contactstudy.solids.halfspace import graded_lines, half_space_patch
 
@@ -95,6 +95,7 @@ def blocks(
     radii: tuple[float, float],
     youngs_modulus: float = 210e9,
     poisson_ratio: float = 0.3,
+    quadrature: Quadrature = "gauss",
 ) -> Blocks:
     """Two equal half-spaces whose mesh has so many elements over each of the largest semi-axes.
 
@@ -108,6 +109,8 @@ def blocks(
         Relative radii R_x, R_y of the gap, m.
     youngs_modulus, poisson_ratio : float
         Of both bodies, E in Pa.
+    quadrature : {"gauss", "nodes"}
+        Contact points.
     """
     outer = OUTER * max(semi_axes)
     n = round(REACH * elements)
@@ -121,7 +124,7 @@ def blocks(
     patch = half_space_patch(
         lines[0], lines[1], depth, (loaded, loaded), youngs_modulus, poisson_ratio
     )
-    points = _points(patch.x[: n + 1], patch.y[: n + 1], radii)
+    points = _points(patch.x[: n + 1], patch.y[: n + 1], radii, quadrature)
     size = len(patch.x) * len(patch.y)
     # lower body: spline through its surface nodes, mirrored in both planes; as in the program
     lower = np.kron(
@@ -134,9 +137,11 @@ def blocks(
     return Blocks(points, lower @ F @ lower.T + upper @ F @ upper.T)
 
 
-def _points(x: Array, y: Array, radii: tuple[float, float]) -> ContactPoints:
-    """Gauss points of the facets between the lines, over Hertz's paraboloid."""
-    along, across = point_line(x, "gauss"), point_line(y, "gauss")
+def _points(
+    x: Array, y: Array, radii: tuple[float, float], quadrature: Quadrature
+) -> ContactPoints:
+    """Contact points of the facets between the lines, over Hertz's paraboloid."""
+    along, across = point_line(x, quadrature), point_line(y, quadrature)
     gap = along.at[:, None] ** 2 / (2 * radii[0]) + across.at[None, :] ** 2 / (2 * radii[1])
     area = 4.0 * along.weight[:, None] * across.weight[None, :]
     return ContactPoints(
