@@ -66,7 +66,6 @@ CASES: tuple[Case, ...] = (
     Case("hertz_ellipses", "hertz:ellipses", slow=True),
     Case("ssnv104", "hertz:ssnv104"),
     Case("reduction", "reduction:passage", slow=True),
-    Case("reduction_coarse", "reduction:short_passage"),
     Case("subsurface_line", "subsurface:line_case"),
     Case("subsurface_sphere", "subsurface:sphere_case", slow=True),
     Case("subsurface_ellipse", "subsurface:ellipse_case"),
