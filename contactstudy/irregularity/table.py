@@ -1,15 +1,12 @@
 """Position and level from a CSV file, with every fault of the file reported at once."""
 
-import csv
-import math
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
+from contactstudy.csv_rows import finite_number, listed, read_rows
 from contactstudy.exceptions import InputError
-
-_SHOWN = 10  # faults of one kind that are listed before "and n more"
 
 
 def read_columns(
@@ -38,9 +35,7 @@ def read_columns(
         not finite, positions that do not increase, or too few rows: file, line and column of
         each.
     """
-    rows = _rows(path)
-    if not rows:
-        raise InputError(f"{path}: the file is empty; allowed: a header line and numbers")
+    rows = read_rows(path)
     header = [name.strip() for name in rows[0][1]]
     missing = [name for name in columns if name not in header]
     if missing:
@@ -55,43 +50,19 @@ def read_columns(
     for row, (line, cells) in enumerate(rows[1:]):
         for k, name in zip(range(2), columns, strict=True):
             cell = cells[index[k]].strip() if index[k] < len(cells) else ""
-            value = _number(cell)
+            value = finite_number(cell)
             if value is None:
                 shown = f"'{cell}'" if cell else "empty"
                 faults.append(f"line {line}, column '{name}' is {shown}; allowed: finite numbers")
             else:
                 table[row, k] = value
-    problems = _listed(path, faults)
-    problems += _listed(path, _disorder(rows, table[:, 0], columns[0]))
+    problems = listed(path, faults)
+    problems += listed(path, _disorder(rows, table[:, 0], columns[0]))
     if len(table) < min_rows:
         problems.append(f"{path}: {len(table)} rows of numbers; allowed: {min_rows} or more")
     if problems:
         raise InputError(problems)
     return table[:, 0].copy(), table[:, 1].copy()
-
-
-def _rows(path: Path) -> list[tuple[int, list[str]]]:
-    """Line number and cells of every line that is not blank."""
-    try:
-        with path.open(newline="", encoding="utf-8-sig") as file:
-            reader = csv.reader(file)
-            return [(reader.line_num, cells) for cells in reader if any(c.strip() for c in cells)]
-    except FileNotFoundError:
-        raise InputError(f"{path}: there is no such file") from None
-    except UnicodeDecodeError:
-        raise InputError(f"{path}: this is not a text file; allowed: CSV in UTF-8") from None
-    except csv.Error as error:
-        raise InputError(f"{path}: this is not a CSV file ({error})") from None
-    except OSError as error:
-        raise InputError(f"{path}: the file cannot be read ({error.strerror})") from None
-
-
-def _number(cell: str) -> float | None:
-    try:
-        value = float(cell)
-    except ValueError:
-        return None
-    return value if math.isfinite(value) else None
 
 
 def _disorder(
@@ -108,10 +79,3 @@ def _disorder(
             f"it ({before:g}); allowed: increasing positions"
         )
     return found
-
-
-def _listed(path: Path, faults: list[str]) -> list[str]:
-    shown = [f"{path}, {fault}" for fault in faults[:_SHOWN]]
-    if len(faults) > _SHOWN:
-        shown.append(f"{path}: and {len(faults) - _SHOWN} more faults of this kind")
-    return shown

@@ -3,6 +3,8 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
+from pathlib import Path
+from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -253,7 +255,6 @@ def joined(
     return ProfileCurve(name, curve.pieces, -float(curve.arc_of_y(zero)), upper, residual)
 
 
-@lru_cache(maxsize=16)
 def rail_curve(name: str = "60E1") -> ProfileCurve:
     """Running surface of a rail with both side faces, in the rail's own axes.
 
@@ -262,13 +263,38 @@ def rail_curve(name: str = "60E1") -> ProfileCurve:
     Parameters
     ----------
     name : str
-        ``"60E1"``, or ``"UIC60-Manchester"``, the rail of the Manchester contact benchmark.
+        ``"60E1"``, ``"UIC60-Manchester"``, the rail of the Manchester contact benchmark, or the
+        name of a CSV file with a worn profile (`contactstudy.profiles.worn`).
 
     Raises
     ------
     InputError
-        If there is no such profile.
+        If there is no such profile, or the file is faulty.
     """
+    return _worn(name, "rail") if _is_file(name) else _drawn_rail(name)
+
+
+def wheel_curve(name: str) -> ProfileCurve:
+    """Profile of a wheel: y from the tape circle to the field side, z up, normals pointing down.
+
+    s = 0 and z = 0 at the tape circle's lowest point; s grows with y.
+
+    Parameters
+    ----------
+    name : str
+        ``"cylinder"``, ``"cone"`` (1:20), ``"S1002"``, or the name of a CSV file with a worn
+        profile (`contactstudy.profiles.worn`).
+
+    Raises
+    ------
+    InputError
+        If there is no such profile, or the file is faulty.
+    """
+    return _worn(name, "wheel") if _is_file(name) else _drawn_wheel(name)
+
+
+@lru_cache(maxsize=16)
+def _drawn_rail(name: str) -> ProfileCurve:
     right: list[Piece] = []
     left: list[Piece] = []
     for p in running_pieces(name):
@@ -284,20 +310,24 @@ def rail_curve(name: str = "60E1") -> ProfileCurve:
 
 
 @lru_cache(maxsize=16)
-def wheel_curve(name: str) -> ProfileCurve:
-    """Profile of a wheel: y from the tape circle to the field side, z up, normals pointing down.
-
-    s = 0 and z = 0 at the tape circle's lowest point; s grows with y.
-
-    Parameters
-    ----------
-    name : str
-        ``"cylinder"``, ``"cone"`` (1:20) or ``"S1002"``.
-
-    Raises
-    ------
-    InputError
-        If there is no such profile.
-    """
+def _drawn_wheel(name: str) -> ProfileCurve:
     profile = wheel_profile(name)
     return joined(profile.name, profile.pieces, 0.0, upper=False)
+
+
+def _is_file(name: str) -> bool:
+    return Path(name).suffix.lower() == ".csv"
+
+
+def _worn(name: str, body: Literal["rail", "wheel"]) -> ProfileCurve:
+    path = Path(name)
+    # a file that has changed is read again
+    return _read(path, body, path.stat().st_mtime_ns if path.is_file() else 0)
+
+
+@lru_cache(maxsize=16)
+def _read(path: Path, body: Literal["rail", "wheel"], changed: int) -> ProfileCurve:
+    # worn profiles are made of this module's curves
+    from contactstudy.profiles.worn import worn_curve
+
+    return worn_curve(path, body)

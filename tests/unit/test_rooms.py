@@ -10,7 +10,7 @@ PACKAGE = Path(contactstudy.__file__).parent
 ORDER = (
     ("__init__",),
     ("exceptions",),
-    ("validation", "units", "resources", "provenance"),
+    ("validation", "units", "csv_rows", "resources", "provenance"),
     ("profiles",),
     ("irregularity",),
     ("solids",),
