@@ -9,14 +9,19 @@ from contactstudy.figures import (
     passing,
     patch,
     patch_history,
+    patch_status,
     press,
     section,
+    stress,
 )
 from contactstudy.figures.drawing import Drawing
 from contactstudy.figures.style import drawing, save
 from contactstudy.study.results import StudyResults
 
-_FAMILIES = (irregularity, histories, bands, patch, patch_history, section, press, passing)
+_FAMILIES = (
+    irregularity, histories, bands, patch, patch_status, stress, patch_history, section, press,
+    passing,
+)  # fmt: skip
 
 __all__ = ["Drawing", "drawings", "write_figures"]
 

@@ -38,6 +38,8 @@ class Patch:
         Position of the wheel, m.
     force : float
         Contact force at that instant, N.
+    instant : int
+        Its number among those stored.
     """
 
     x: FloatArray
@@ -45,6 +47,7 @@ class Patch:
     pressure: FloatArray
     position: float
     force: float
+    instant: int = 0
 
 
 def drawings(results: StudyResults) -> list[Drawing]:
@@ -88,7 +91,7 @@ def patch_of(run: xr.Dataset) -> Patch | None:
             np.concatenate([y, -y[inner]]),
             np.concatenate([p, p[inner]]),
         )
-    return Patch(x, y, p, float(at[k]), float(force[k]))
+    return Patch(x, y, p, float(at[k]), float(force[k]), k)
 
 
 def _of_instant(data: xr.DataArray, k: int) -> FloatArray:

@@ -28,7 +28,17 @@ _PARTS = (
     ("Contact force", ("contact_force", "third_octaves")),
     ("Motion of the wheel", ("wheel_displacement", "wheel_acceleration")),
     ("Motion of the rail", ("rail_displacement",)),
-    ("Contact patch", ("patch_pressure", "patch_history", "deformed_section", "static_press")),
+    (
+        "Contact patch",
+        (
+            "patch_pressure",
+            "patch_status",
+            "stress_below",
+            "patch_history",
+            "deformed_section",
+            "static_press",
+        ),
+    ),
     ("Passing frequencies", ("smooth_force", "passing_amplitudes")),
 )
 

@@ -107,10 +107,12 @@ def _finished_run(plan: Plan, name: str) -> store.StoredRun:
 def render(results: StudyResults, out_dir: Path, reporter: Reporter) -> None:
     """Draw the figures and typeset the report."""
     from contactstudy.figures import write_figures
+    from contactstudy.figures.animation import write_animations
     from contactstudy.report import write_report
 
     with reporter.stage("drawing the figures"):
         write_figures(results, out_dir)
+        write_animations(results, out_dir)
     with reporter.stage("typesetting the report"):
         write_report(results, out_dir)
 

@@ -1,0 +1,119 @@
+"""The contact patch along a run as a GIF: pressure on the tread nodes, and the force."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from matplotlib.animation import PillowWriter
+from matplotlib.figure import Figure
+
+from contactstudy.figures.drawing import FloatArray, exact, label, position, values
+from contactstudy.figures.style import BLACK, VERMILION, drawing, new_figure
+from contactstudy.study.files import writing
+from contactstudy.study.results import StudyResults
+
+_DPI = 100
+_WIDTH, _HEIGHT = 6.0, 4.2  # inch
+_SECONDS = 10.0  # of a loop, if no frame is longer or shorter than these bounds
+_FRAMES_A_SECOND = (4.0, 20.0)
+
+
+@dataclass(frozen=True)
+class Frames:
+    """Pressure on the whole patch at many instants.
+
+    Attributes
+    ----------
+    x, y : (n,), (m,) array
+        Grid lines relative to the wheel, mm.
+    pressure : (frames, n, m) array
+        MPa; 0 where nothing touches.
+    position : (frames,) array
+        Of the wheel, m.
+    """
+
+    x: FloatArray
+    y: FloatArray
+    pressure: FloatArray
+    position: FloatArray
+
+
+def write_animations(results: StudyResults, out_dir: Path) -> list[Path]:
+    """Write out_dir/figures/patch.gif for the runs that kept frames; companions beside.
+
+    With several such runs the files are patch_<run>.gif. Equal results give equal bytes.
+    """
+    found = {name: run for name, run in results.runs.items() if "frame_pressure" in run.variables}
+    written = []
+    for name, run in found.items():
+        suffix = f"_{name}" if len(found) > 1 else ""
+        target = Path(out_dir) / "figures" / f"patch{suffix}.gif"
+        with writing(target) as path, drawing():
+            _animate(name, run, path)
+        written.append(target)
+    for companion in results.companions:
+        written += write_animations(companion, Path(out_dir) / companion.name)
+    return written
+
+
+def frames_of(run: xr.Dataset) -> Frames:
+    """Frames of a run, both halves of a symmetric model."""
+    x, y = (np.unique(np.asarray(run[name].values)) for name in ("point_x", "point_y"))
+    pressure = np.asarray(run["frame_pressure"].transpose("frame", "point").values)
+    grid = pressure.reshape(-1, len(x), len(y)) * 1e-6
+    if run["point_y"].attrs.get("symmetric", y[0] >= -1e-9):
+        y, grid = np.r_[-y[:0:-1], y], np.concatenate([grid[:, :, :0:-1], grid], axis=2)
+    at = np.asarray(run["frame_position"].values, dtype=float)
+    return Frames(x * 1e3, y * 1e3, grid, at)
+
+
+def _animate(name: str, run: xr.Dataset, path: Path) -> None:
+    frames = frames_of(run)
+    figure, parts = _draw(name, run, frames)
+    rate = float(np.clip(len(frames.position) / _SECONDS, *_FRAMES_A_SECOND))
+    writer = PillowWriter(fps=rate)  # type: ignore[arg-type]
+    with writer.saving(figure, str(path), _DPI):
+        for k in range(len(frames.position)):
+            _show(parts, frames, k)
+            writer.grab_frame()
+
+
+def _draw(name: str, run: xr.Dataset, frames: Frames) -> tuple[Figure, Mapping[str, Any]]:
+    """Everything that stays, and the parts that move."""
+    figure = new_figure(_HEIGHT, _WIDTH)
+    patch, trace = figure.subplots(2, 1, height_ratios=[2.2, 1.0])
+    image = patch.pcolormesh(
+        frames.x, frames.y, frames.pressure[0].T, cmap="cividis_r", vmin=0.0,
+        vmax=max(float(frames.pressure.max()), 1.0), shading="nearest",
+    )  # fmt: skip
+    figure.colorbar(image, ax=patch, label="Pressure (MPa)")
+    patch.set_aspect("equal")
+    patch.grid(False)
+    patch.set_xlabel("Along the rail, from the wheel (mm)")
+    patch.set_ylabel("Across (mm)")
+    x, force = position(run), values(run, "contact_force") * 1e-3
+    on = (x >= frames.position[0]) & (x <= frames.position[-1])
+    trace.plot(x[on], force[on], color=BLACK, lw=0.8)
+    line = trace.axvline(frames.position[0], color=VERMILION, lw=1.2)
+    trace.margins(x=0)
+    trace.set_xlabel("Position X of the wheel (m)")
+    trace.set_ylabel("Force (kN)")
+    title = patch.set_title(f"{label(name)}: X = {exact(frames.position[0], 6)} m")
+    # the layout is found once, with the longest title, so that nothing jumps
+    figure.draw_without_rendering()
+    figure.set_layout_engine("none")
+    parts = {"image": image, "line": line, "title": title, "name": label(name), "x": x}
+    return figure, parts | {"force": force}
+
+
+def _show(parts: Mapping[str, Any], frames: Frames, k: int) -> None:
+    pressure = frames.pressure[k].T
+    # no colour where nothing touches
+    parts["image"].set_array(np.ma.masked_where(pressure <= 0.0, pressure))
+    at = float(frames.position[k])
+    parts["line"].set_xdata([at, at])
+    force = float(np.interp(at, parts["x"], parts["force"]))
+    parts["title"].set_text(f"{parts['name']}: X = {at:.3f} m, {force:.1f} kN")

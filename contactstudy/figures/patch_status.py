@@ -1,0 +1,115 @@
+"""What touches: contact status of the tread nodes, and the gap around the patch."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.colors import ListedColormap
+from matplotlib.figure import Figure
+from matplotlib.patches import Patch as Swatch
+
+from contactstudy.figures.drawing import Drawing, FloatArray, exact, label, number
+from contactstudy.figures.patch import Patch, patch_of
+from contactstudy.figures.style import BLACK, BLUE, SHADE, SKY, new_figure
+from contactstudy.study.results import StudyResults
+
+_GAPS = (5.0, 10.0, 20.0, 50.0)  # µm
+_NAMES = ("open", "partly in contact", "in contact")
+
+
+@dataclass(frozen=True)
+class Status:
+    """Nodal fields of one instant on the whole patch.
+
+    Attributes
+    ----------
+    x, y : (n,), (m,) array
+        Grid lines relative to the wheel, mm.
+    status : (n, m) array
+        Part of the node's area in contact.
+    gap : (n, m) array
+        µm; negative: penetration.
+    """
+
+    x: FloatArray
+    y: FloatArray
+    status: FloatArray
+    gap: FloatArray
+
+
+def drawings(results: StudyResults) -> list[Drawing]:
+    """Contact status of each run that has stored it."""
+    found = {
+        name: patch
+        for name, run in results.runs.items()
+        if "pressure" in run and "contact_status" in run and (patch := patch_of(run)) is not None
+    }
+    made = []
+    for name, patch in found.items():
+        status = status_of(results.runs[name], patch.instant)
+        suffix = f"_{name}" if len(found) > 1 else ""
+        made.append(
+            Drawing(
+                f"patch_status{suffix}",
+                _caption(name, results.runs[name], patch, status),
+                lambda status=status: _draw(status),  # type: ignore[misc]
+            )
+        )
+    return made
+
+
+def status_of(run: xr.Dataset, instant: int) -> Status:
+    """Status and gap at one of a run's instants, both halves of a symmetric model."""
+    x, y = (np.unique(np.asarray(run[name].values)) for name in ("point_x", "point_y"))
+    mirrored = bool(run["point_y"].attrs.get("symmetric", y[0] >= -1e-9))
+    fields = []
+    for name in ("contact_status", "gap"):
+        grid = np.asarray(run[name].isel(instant=instant).values).reshape(len(x), len(y))
+        fields.append(np.hstack([grid[:, :0:-1], grid]) if mirrored else grid)
+    across = np.r_[-y[:0:-1], y] if mirrored else y
+    return Status(x * 1e3, across * 1e3, fields[0], fields[1] * 1e6)
+
+
+def _draw(status: Status) -> Figure:
+    figure = new_figure(2.9, equal_axes=True)
+    left, right = figure.subplots(1, 2, sharey=True)
+    kind = np.where(status.status > 1 - 1e-9, 2, np.where(status.status > 0, 1, 0))
+    colours = (SHADE, SKY, BLUE)
+    left.pcolormesh(
+        status.x, status.y, kind.T, cmap=ListedColormap(colours), vmin=-0.5, vmax=2.5,
+        shading="nearest", edgecolors="white", linewidth=0.3,
+    )  # fmt: skip
+    swatches = [Swatch(color=c, label=n) for c, n in zip(colours, _NAMES, strict=True)]
+    figure.legend(handles=swatches, loc="outside upper center", ncols=3)
+    lines = right.contour(
+        status.x, status.y, status.gap.T, levels=_GAPS, colors=BLACK, linewidths=0.7
+    )
+    right.clabel(lines, fmt="%g µm", fontsize=7)
+    right.contourf(status.x, status.y, status.status.T, levels=[0.5, 2.0], colors=[SKY])
+    left.set_ylabel("Across the rail (mm)")
+    for ax, text in ((left, "Contact status of the nodes"), (right, "Gap around the patch")):
+        _frame(ax, status)
+        ax.set_title(text)
+    return figure
+
+
+def _frame(ax: Axes, status: Status) -> None:
+    ax.set_xlim(status.x[0], status.x[-1])
+    ax.set_ylim(status.y[0], status.y[-1])
+    ax.set_aspect("equal")
+    ax.grid(False)
+    ax.set_xlabel("Along the rail (mm)")
+
+
+def _caption(name: str, run: xr.Dataset, patch: Patch, status: Status) -> str:
+    area = np.asarray(run["point_area"].values)
+    nodal = np.asarray(run["contact_status"].values)[patch.instant]
+    deepest = max(-float(status.gap.min()), 0.0)
+    return (
+        f"Contact of the run {label(name)} at X = {exact(patch.position)} m: status of the tread "
+        "nodes by the part of their area in contact (left), and the gap around the patch (right, "
+        f"more than half in contact shaded). The area in contact is "
+        f"{number(float(area @ nodal) * 1e6)} mm²; the largest penetration at a node is "
+        f"{number(deepest, 2)} µm."
+    )
