@@ -7,14 +7,13 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from contactstudy.banded import Factor
 from contactstudy.contact.coupling import SurfaceCoupling
 from contactstudy.contact.press import PressCurve, press_curve
 from contactstudy.contact.quadrature import Quadrature
-from contactstudy.contact.residual import ResidualFlexibility, patch_splines
 from contactstudy.dynamics import Integrator, average_acceleration
 from contactstudy.irregularity import Profile, faded
 from contactstudy.solids.wheel import WheelFlexibility, WheelRecipe, rigid_wheel
+from contactstudy.solvers.at_rest import bodies_at_rest
 from contactstudy.solvers.geometry import Geometry, candidate_list, mesh_problems, wheel_points
 from contactstudy.solvers.frames import Frames, both
 from contactstudy.solvers.instants import Instants
@@ -153,6 +152,8 @@ def surface_contact(
             "contact_points": len(points.gap),
         },
         progress=progress,
+        # forces that meet a tolerance of the penetration are known no better than so
+        start_tolerance=1e-11 if tolerance is None else 1e-8,
         on_state=both(kept, frames),
     )
     data["rail_displacement"] += data["centre_residual"]
@@ -258,25 +259,5 @@ def geometry_press(
     -------
     PressCurve
     """
-    points = wheel_points(wheel, quadrature, geometry)
-    x = (track.track.n_bays // 2 + 0.5) * track.track.bay_length if x is None else x
-    half_length = float(np.abs(points.x).max()) + 2 * track.thickness
-    patch = track.patch(x, half_length)
-    factor = Factor(track.stiffness)
-    unit = np.zeros((factor.n, len(patch.dofs)))
-    unit[patch.dofs, np.arange(len(patch.dofs))] = 1.0
-    solved = factor.solve(unit)
-    C = solved[patch.dofs]
-    along, across = patch_splines(patch, points)
-    P = np.kron(along(x - patch.x[0] + points.x), across)
-    residual = ResidualFlexibility(
-        track, along, across, points.x, half_length, track.thickness, track.residual_period
-    )
-    PH = P @ patch.map
-    tread = points.wheel_rows.matrix(len(wheel.flexibility))
-    W = residual(x).block(np.arange(len(points.gap))) + tread @ wheel.flexibility @ tread.T
-    W += PH @ (0.5 * (C + C.T)) @ PH.T
-    # deflection of the centre line per unit nodal force; forces push the rail down
-    reference = P @ (patch.map @ (patch.centre_map[0] @ solved[patch.centre_dofs]))
-    reference += P @ patch.centre_residual[0]
-    return press_curve(points, W, loads, penalty, reference, tolerance)
+    at = bodies_at_rest(track, wheel, x, quadrature, geometry)
+    return press_curve(at.points, at.flexibility, loads, penalty, at.centre_line, tolerance)
