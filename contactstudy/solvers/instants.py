@@ -11,6 +11,7 @@ from contactstudy.contact.coupling import PatchState, SurfaceCoupling
 from contactstudy.contact.points import ContactPoints
 from contactstudy.dynamics import State
 from contactstudy.solids.wheel import WheelFlexibility
+from contactstudy.solids.wheel_modes import WheelModes, residual_flexibility
 from contactstudy.solvers.patch_fields import node_coordinates, node_fields, stress_variables
 from contactstudy.track.solid import SolidTrack
 from contactstudy.track.unreduced import UnreducedTrack
@@ -22,7 +23,7 @@ Array = NDArray[np.float64]
 class _Kept:
     position: float
     time: float
-    hub: float
+    wheel: Array  # displacements of the hub and of its modes
     state: PatchState
     rail: Array  # displacement (k, 2) of the section's nodes
     plane: float  # X of that section
@@ -63,14 +64,20 @@ class Instants:
             _Kept(
                 x,
                 state.time,
-                float(state.u[self._coupling.wheel_dof]),
+                state.u[self._coupling.wheel_dofs],
                 last,
                 section.map @ state.u[section.dofs] - section.residual @ last.surface_load,
                 section.position,
             )
         )
 
-    def into(self, data: xr.Dataset, points: ContactPoints, wheel: WheelFlexibility) -> xr.Dataset:
+    def into(
+        self,
+        data: xr.Dataset,
+        points: ContactPoints,
+        wheel: WheelFlexibility,
+        modes: WheelModes | None = None,
+    ) -> xr.Dataset:
         """Add the fields of the patch, stress maxima and deformed sections to a dataset."""
         if not self._kept:
             return data
@@ -89,7 +96,10 @@ class Instants:
             "instant",
         )
         first = self._kept[0]
-        moved = wheel.section_response @ (tread.T @ first.state.forces) + [0.0, first.hub]
+        body = wheel if modes is None else residual_flexibility(wheel, modes)
+        moved = body.section_response @ (tread.T @ first.state.forces) + [0.0, first.wheel[0]]
+        if modes is not None:
+            moved += np.einsum("m,mkc->kc", first.wheel[1:], modes.section_shapes)
         section = self._track.section(first.position, self._coupling.half_length)
         metre = {"units": "m"}
 

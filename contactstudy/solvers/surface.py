@@ -13,21 +13,26 @@ from contactstudy.contact.quadrature import Quadrature
 from contactstudy.dynamics import Integrator, average_acceleration
 from contactstudy.irregularity import Profile, faded
 from contactstudy.solids.wheel import WheelFlexibility, WheelRecipe, rigid_wheel
+from contactstudy.solids.wheel_modes import WheelModes, residual_flexibility
 from contactstudy.solvers.at_rest import bodies_at_rest
-from contactstudy.solvers.geometry import Geometry, candidate_list, mesh_problems, wheel_points
 from contactstudy.solvers.frames import Frames, both
+from contactstudy.solvers.geometry import Geometry, candidate_list, mesh_problems, wheel_points
 from contactstudy.solvers.instants import Instants
 from contactstudy.solvers.journey import Journey
 from contactstudy.solvers.run import Assembly, Progress, run
 from contactstudy.track.solid import SolidTrack
 from contactstudy.track.unreduced import UnreducedTrack
 from contactstudy.validation import positive, raise_if
-from contactstudy.vehicle import Vehicle
+from contactstudy.vehicle import Vehicle, with_wheel_modes
 
 Array = NDArray[np.float64]
 
 PRESS_LOADS = np.linspace(0.25, 2.0, 8)
 """Loads of the static press that comes with a run, in static wheel loads."""
+
+WHEEL_DAMPING = 1e-3
+"""Damping ratio of the wheel's modes, an assumption: D. J. Thompson, Railway Noise and Vibration
+(2009), ch. 6, uses 1e-2, 1e-3 and 1e-4 for one, no and more waves round a wheel."""
 
 
 def surface_contact(
@@ -38,6 +43,8 @@ def surface_contact(
     journey: Journey,
     *,
     geometry: Geometry | None = None,
+    modes: WheelModes | None = None,
+    wheel_damping: float = WHEEL_DAMPING,
     penalty: float = 1e16,
     quadrature: Quadrature = "gauss",
     tolerance: float | None = None,
@@ -64,6 +71,11 @@ def surface_contact(
     geometry : Geometry, optional
         Profiles and position of a whole wheel on a whole rail section: inclination, lateral
         shift, yaw. Half sections are centred and upright.
+    modes : WheelModes, optional
+        Elastic modes of the wheel, which then move with their inertia; without them it is
+        quasi-static (or rigid, if it has no flexibility), all its inertia in the wheel's dof.
+    wheel_damping : float
+        Damping ratio of the modes.
     penalty : float
         Pressure per penetration in Pa/m.
     quadrature : {"gauss", "nodes"}
@@ -85,9 +97,10 @@ def surface_contact(
     xarray.Dataset
         See `contactstudy.solvers.dataset`; in addition `contact_area`, `peak_pressure` (at the
         wheel's tread nodes), `penetration` (largest), the static press of this very geometry
-        (`press_force`, `press_approach` from the hub to the rail's centre line, `press_penetration`), of a whole section
-        the lateral motion and roll of the rail under the wheel, and with `pressure_at` the field `pressure` (instant, point) at the tread nodes and the deformed
-        sections of wheel and rail at the first instant.
+        (`press_force`, `press_approach` from the hub to the rail's centre line,
+        `press_penetration`), of a whole section the lateral motion and roll of the rail under
+        the wheel, and with `pressure_at` the field `pressure` (instant, point) at the tread
+        nodes and the deformed sections of wheel and rail at the first instant.
 
     Raises
     ------
@@ -115,9 +128,11 @@ def surface_contact(
     ]
     raise_if(problems)
 
+    if modes is not None:
+        vehicle = with_wheel_modes(vehicle, modes.frequencies, modes.participation, wheel_damping)
     assembly = Assembly(track, vehicle)
     coupling, r = surface_coupling(
-        assembly, wheel, irregularity, journey, penalty, quadrature, tolerance, geometry
+        assembly, wheel, irregularity, journey, penalty, quadrature, tolerance, geometry, modes
     )
     points = coupling.points
     kept = Instants(coupling, track, coupling.positions, pressure_at)
@@ -132,7 +147,7 @@ def surface_contact(
         tolerance=tolerance,
         geometry=geometry,
     )
-    elastic = bool(wheel.flexibility.any())
+    still = "quasi-static" if wheel.flexibility.any() else "rigid"
     data = run(
         assembly,
         coupling,
@@ -147,7 +162,8 @@ def surface_contact(
             "penalty": penalty,
             **({} if tolerance is None else {"penetration_tolerance": tolerance}),
             "quadrature": quadrature,
-            "wheel": "elastic" if elastic else "rigid",
+            "wheel": still if modes is None else "modal",
+            **({} if modes is None else {"wheel_modes": len(modes.frequencies)}),
             "mesh_size": track.recipe.size,
             "contact_points": len(points.gap),
         },
@@ -169,7 +185,7 @@ def surface_contact(
         pressed.penetration,
         {"units": "m", "long_name": "largest penetration"},
     )
-    return frames.into(kept.into(data, points, wheel))
+    return frames.into(kept.into(data, points, wheel, modes))
 
 
 def surface_coupling(
@@ -181,20 +197,22 @@ def surface_coupling(
     quadrature: Quadrature = "gauss",
     tolerance: float | None = None,
     geometry: Geometry | None = None,
+    modes: WheelModes | None = None,
 ) -> tuple[SurfaceCoupling, Array]:
     """Join the contact points of a wheel to all positions of a journey.
 
     Parameters
     ----------
     assembly : Assembly
-        Of a `SolidTrack` or `UnreducedTrack` and a vehicle with one wheel.
+        Of a `SolidTrack` or `UnreducedTrack` and a vehicle with one wheel, its modes last
+        among the dofs (`with_wheel_modes`) where there are any.
     wheel : WheelFlexibility
     irregularity : Profile
         Before it is faded in.
     journey : Journey
     penalty : float
         In Pa/m.
-    quadrature, tolerance, geometry
+    quadrature, tolerance, geometry, modes
         As in `surface_contact`.
 
     Returns
@@ -207,10 +225,12 @@ def surface_coupling(
     assert isinstance(track, SolidTrack | UnreducedTrack)
     positions = journey.wheel_positions(assembly.vehicle.wheel_offsets)
     profile = faded(irregularity, float(positions[0, 0]), journey.fade_in)
+    body = wheel if modes is None else residual_flexibility(wheel, modes)
+    n_modes = 0 if modes is None else len(modes.frequencies)
     coupling = SurfaceCoupling(
         track,
         points,
-        wheel.flexibility,
+        body.flexibility,
         int(assembly.wheel_dofs[0]),
         positions[:, 0],
         profile(positions + points.x),
@@ -219,6 +239,8 @@ def surface_coupling(
         track.thickness,
         track.residual_period,
         tolerance,
+        range(assembly.n_dofs - n_modes, assembly.n_dofs),
+        None if modes is None else modes.shapes,
     )
     return coupling, profile(positions)
 
