@@ -95,15 +95,13 @@ def export_press(
     raise_if(problems)
     hertz = _hertz(study, newtons)
     cell, wheel = build.recipe(study), build.wheel_recipe(study)
-    if (
-        hertz.semi_axis_x > wheel.contact_half_length
-        or hertz.semi_axis_y > wheel.contact_half_width
-    ):
+    reach, half = wheel.contact_half_length, wheel.contact_half_width
+    if hertz.semi_axis_x > reach or hertz.semi_axis_y > half:
         raise InputError(
-            f"load = {newtons:.6g} N: the patch, {hertz.semi_axis_x:.4g} by {hertz.semi_axis_y:.4g} m after "
-            "Hertz, does not fit on the finely meshed tread: enlarge solid.contact_half_length "
-            f"(now {wheel.contact_half_length:g} m) or solid.contact_half_width "
-            f"({wheel.contact_half_width:g} m)"
+            f"load = {newtons:.6g} N: the patch, {hertz.semi_axis_x:.4g} m along and "
+            f"{hertz.semi_axis_y:.4g} m across from its middle after Hertz, does not fit on the "
+            f"finely meshed tread: enlarge solid.contact_half_length (now {reach:g} m) or "
+            f"solid.contact_half_width ({half:g} m)"
         )
     mesh = press_mesh(cell, wheel, length)
     header = (

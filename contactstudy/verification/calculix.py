@@ -1,0 +1,180 @@
+"""The static press against CalculiX, an independent finite-element program, on the same mesh."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contactstudy.contact.hertz import contact_modulus, hertz_contact
+from contactstudy.export.calculix import calculix_input
+from contactstudy.export.press_mesh import PressMesh, press_mesh
+from contactstudy.export.run_calculix import CalculixRun, run_calculix
+from contactstudy.profiles.rail import rail_profile
+from contactstudy.solids.cache import cached
+from contactstudy.solids.cell import RailCell, condense
+from contactstudy.solids.recipe import CellRecipe
+from contactstudy.solids.wheel import WheelFlexibility, elastic_wheel
+from contactstudy.solids.wheel_recipe import WheelRecipe
+from contactstudy.solvers.surface import geometry_press, wheel_points
+from contactstudy.track.model import Track
+from contactstudy.track.solid import SolidTrack, solid_rail
+from contactstudy.track.unreduced import UnreducedTrack
+from contactstudy.vehicle import wheel_column
+from contactstudy.verification.check import CaseResult, Check, Table
+from contactstudy.verification.facets import FacetPress, facet_press
+
+Array = NDArray[np.float64]
+
+LOAD = float(wheel_column().static_loads[0])
+"""N, static load of the default wheel."""
+PENALTY = 1e16
+
+METHOD = """\
+A wheel is pressed on the middle of a rail {length:g} m long, clamped at both ends; elements of \
+{size:g} mm, {load:.5g} kN. CalculiX solves the exported mesh with every node kept ({nodes} nodes, \
+incompatible-mode bricks, contact face to face with the same penalty, load on the hub). The \
+approach is the hub's displacement against the clamped ends; the area that of the integration \
+points in contact; pressures are means over the tread's faces, which no extrapolation to nodes \
+distorts.
+
+"Flat faces": {model}, its gap and displacements linear between the nodes as CalculiX has them; \
+what differs is elements, condensation, contact algorithm and integration points. "Smooth \
+profiles": the press as the program runs it, 2 x 2 Gauss points a face, the gap between the smooth \
+profiles. The sagitta of the faces, {sagitta:.2g} um, is what the two differ by."""
+
+
+@dataclass(frozen=True)
+class _Model:
+    """Bodies of a case."""
+
+    cell: CellRecipe
+    wheel: WheelRecipe
+    length: float
+    reduced: bool
+
+    @property
+    def track(self) -> SolidTrack | UnreducedTrack:
+        """The short clamped rail, without supports."""
+        rail = Track(rail=solid_rail(self.cell), length=self.length, support=None)
+        if self.reduced:
+            return SolidTrack(rail, cached(condense, RailCell, self.cell), mean_phase=False)
+        return UnreducedTrack(rail, self.cell)
+
+    @property
+    def mesh(self) -> PressMesh:
+        """The same as one mesh."""
+        return press_mesh(self.cell, self.wheel, self.length)
+
+    def calculix(self, mesh: PressMesh) -> CalculixRun:
+        """Let CalculiX solve it."""
+        E, nu = self.cell.youngs_modulus, self.cell.poisson_ratio
+        crown = rail_profile(self.cell.profile).crown_radius
+        start = hertz_contact(LOAD, contact_modulus(E, nu), self.wheel.dimensions.radius, crown)
+        text = calculix_input(mesh, LOAD, PENALTY, E, nu, start.approach)
+        return run_calculix(text, PENALTY)
+
+
+def press_on_default_mesh() -> CaseResult:
+    """Condensed bodies of the default mesh, 2 mm, on 0.4 m of rail; minutes of CalculiX."""
+    model = _Model(CellRecipe(), WheelRecipe(), 0.4, reduced=True)
+    return _case("calculix", model, (2e-3, 0.02, 0.01), (0.01, None, None))
+
+
+def press_on_coarse_mesh() -> CaseResult:
+    """4 mm on 0.08 m of rail with every node kept: quick."""
+    wheel = WheelRecipe(size=0.004, far_step=np.pi / 6)
+    model = _Model(CellRecipe(size=0.004, length=0.08), wheel, 0.08, reduced=False)
+    return _case("calculix_coarse", model, (2e-3, 0.02, 0.01), (None, None, None))
+
+
+def _case(
+    name: str,
+    model: _Model,
+    flat_bands: tuple[float | None, ...],
+    smooth_bands: tuple[float | None, ...],
+) -> CaseResult:
+    mesh, track = model.mesh, model.track
+    wheel = cached(elastic_wheel, WheelFlexibility, model.wheel)
+    run, middle = model.calculix(mesh), 0.5 * model.length
+    flat = facet_press(track, wheel, LOAD, PENALTY, middle)
+    theirs = FacetPress(run.press.approach, run.press.area, _on_grid(mesh, run, wheel))
+    smooth = _smooth(track, wheel, middle)
+    source = f"CalculiX {run.version}"
+    checks = [
+        Check(f"{what}, {how}", scale * ours, scale * reference, unit, source, band)
+        for how, one, bands in (
+            ("flat faces", flat, flat_bands),
+            ("smooth profiles", smooth, smooth_bands),
+        )
+        for what, ours, reference, scale, unit, band in (
+            ("approach", one.approach, theirs.approach, 1e6, "um", bands[0]),
+            ("contact area", one.area, theirs.area, 1e6, "mm^2", bands[1]),
+            (
+                "peak mean pressure of a face",
+                float(one.face_pressure.max()),
+                float(theirs.face_pressure.max()),
+                1e-6,
+                "MPa",
+                bands[2],
+            ),
+        )
+    ]
+    checks.append(
+        Check("vertical contact force", 1e-3 * LOAD, 1e-3 * run.press.force, "kN", source, 1e-3)
+    )
+    h = model.cell.size
+    crown = rail_profile(model.cell.profile).crown_radius
+    return CaseResult(
+        name=name,
+        title=f"Static press on the mesh of {1e3 * h:g} mm against CalculiX",
+        method=METHOD.format(
+            length=model.length,
+            size=1e3 * h,
+            load=1e-3 * LOAD,
+            nodes=len(mesh.nodes),
+            model="the condensed bodies" if model.reduced else "the rail with every node kept",
+            sagitta=1e6 * h**2 / 8 * (1 / model.wheel.dimensions.radius + 1 / crown),
+        ),
+        checks=tuple(checks),
+        tables=(_pressures(wheel, flat, smooth, theirs, source),),
+    )
+
+
+def _on_grid(mesh: PressMesh, run: CalculixRun, wheel: WheelFlexibility) -> Array:
+    """CalculiX's mean pressures on the grid of the tread's faces."""
+    corners = mesh.corners(mesh.tread)
+    # area of a plane quadrilateral from its diagonals, of both halves
+    diagonals = corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]
+    area = np.linalg.norm(np.cross(*diagonals), axis=1)
+    centre = corners.mean(axis=1)
+    pressure = np.zeros((len(wheel.x) - 1, len(wheel.y) - 1))
+    at = np.searchsorted(wheel.x, centre[:, 0]) - 1, np.searchsorted(wheel.y, centre[:, 1]) - 1
+    pressure[at] = run.press.face_pressure(mesh.tread[:, 0], area)
+    return pressure
+
+
+def _smooth(track: SolidTrack | UnreducedTrack, wheel: WheelFlexibility, x: float) -> FacetPress:
+    """The program's own press."""
+    points = wheel_points(wheel)
+    solution = geometry_press(track, wheel, np.array([LOAD]), PENALTY, x).solutions[0]
+    nx, ny = len(wheel.x) - 1, len(wheel.y) - 1
+    force, area = (
+        values.reshape(nx, 2, ny, 2).sum(axis=(1, 3)) for values in (solution.forces, points.area)
+    )
+    # not the curve's approach: that is measured to the rail's centre line
+    return FacetPress(solution.approach, points.contact_area(solution.active), force / area)
+
+
+def _pressures(
+    wheel: WheelFlexibility, flat: FacetPress, smooth: FacetPress, theirs: FacetPress, source: str
+) -> Table:
+    """Faces beside the plane of symmetry, outwards from the middle."""
+    first = len(wheel.x) // 2
+    centre = 0.5 * (wheel.x[1:] + wheel.x[:-1])
+    rows = tuple(
+        (1e3 * float(centre[i]), *(1e-6 * float(p.face_pressure[i, 0]) for p in columns))
+        for columns in ((theirs, flat, smooth),)
+        for i in range(first, len(centre))
+    )
+    header = ("x of the face (mm)", f"{source} (MPa)", "flat faces (MPa)", "smooth (MPa)")
+    return Table("Mean pressure of the faces next to the plane of symmetry", header, rows)
