@@ -76,6 +76,8 @@ CASES: tuple[Case, ...] = (
     Case("wheel_disc", "wheel:disc"),
     Case("wheel_modes", "wheel:brute_force", slow=True),
     Case("wheel_statics", "wheel_statics:statics", slow=True),
+    Case("calculix_coarse", "calculix:press_on_coarse_mesh", needs=("program:ccx",)),
+    Case("calculix", "calculix:press_on_default_mesh", slow=True, needs=("program:ccx",)),
 )
 
 
