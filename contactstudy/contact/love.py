@@ -162,12 +162,15 @@ def contact_pressure(
     depth = float(-gap.min())
     if depth <= 0.0:
         return np.zeros(grid.shape)
-    p = np.where(gap < 0, 1.0, 0.0) if start is None else np.maximum(start, 0.0)
-    if start is None or not p.any():
-        p = np.where(gap < 0, -gap / depth, 0.0)
-        p *= depth / float(grid.approach(p).max())
+    # a pressure with the overlap's shape that just lifts as much as the deepest overlap
+    lifting = np.where(gap < 0, -gap / depth, 0.0)
+    lifting *= depth / float(grid.approach(lifting).max())
+    p = lifting if start is None else np.maximum(start, 0.0)
     direction, last, conjugate = np.zeros(grid.shape), 1.0, 0.0
     for _ in range(max_iterations):
+        if not p.any():
+            # a step too long has lifted everything off: begin again
+            p, conjugate = lifting, 0.0
         residual = grid.approach(p) + gap
         active = p > 0
         overlap = ~active & (residual < -tolerance * depth)
