@@ -14,9 +14,12 @@ from contactstudy.validation import positive, raise_if
 
 Array = NDArray[np.float64]
 
+FAR_STEP = np.pi / 15
+"""Largest angle between two planes in rad away from the contact, enough for statics."""
+
 FAR_STEP_OF_MODES = np.pi / 60
 """Largest angle between two planes in rad for elastic modes: 24 planes a wave of five round the
-wheel. Static flexibility is content with the recipe's default."""
+wheel."""
 
 
 @dataclass(frozen=True)
@@ -59,7 +62,7 @@ class WheelRecipe:
     density: float = 7850.0
     symmetric: bool = True
     contact_centre: float = 0.0
-    far_step: float = np.pi / 15
+    far_step: float = FAR_STEP
     profile_digest: str = field(init=False, default="")
 
     def __post_init__(self) -> None:

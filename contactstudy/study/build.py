@@ -9,11 +9,13 @@ from contactstudy.contact.hertz import HertzContact, contact_modulus, hertz_cont
 from contactstudy.contact.laws import ContactLaw, HertzSpring, LinearSpring, RigidContact
 from contactstudy.contact.press import tangent_stiffness
 from contactstudy.profiles.rail import rail_profile
-from contactstudy.profiles.wheel_body import WheelDimensions
+from contactstudy.profiles.wheel_body import wheel_dimensions
 from contactstudy.solids.cache import cached
 from contactstudy.solids.cell import RailCell, condense
 from contactstudy.solids.recipe import CellRecipe
 from contactstudy.solids.wheel import WheelFlexibility, WheelRecipe, elastic_wheel, rigid_wheel
+from contactstudy.solids.wheel_modes import ModesRecipe, WheelModes, wheel_modes
+from contactstudy.solids.wheel_recipe import FAR_STEP, FAR_STEP_OF_MODES
 from contactstudy.solvers.journey import Journey
 from contactstudy.solvers.surface import PRESS_LOADS, geometry_press
 from contactstudy.study.runs import PointRun, RunTable
@@ -56,12 +58,14 @@ def wheel_recipe(study: Study) -> WheelRecipe:
     track, solid = study.track, study.solid
     return WheelRecipe(
         rail_profile=track.rail,
-        dimensions=WheelDimensions(radius=study.vehicle.wheel_radius),
+        dimensions=wheel_dimensions(solid.wheel_section).with_radius(study.vehicle.wheel_radius),
         size=solid.mesh_size,
         contact_half_length=solid.contact_half_length,
         contact_half_width=solid.contact_half_width,
         youngs_modulus=track.youngs_modulus,
         poisson_ratio=track.poisson_ratio,
+        density=track.density,
+        far_step=FAR_STEP_OF_MODES if study.has_wheel_modes else FAR_STEP,
     )
 
 
@@ -126,12 +130,24 @@ def solid_track(study: Study, described: Track) -> SolidTrack:
     return SolidTrack(described, cached(condense, RailCell, recipe(study)))
 
 
-def wheel(study: Study) -> WheelFlexibility:
-    """The meshed wheel, condensed or taken from the cache."""
+def wheel(study: Study, run: str | None = None) -> WheelFlexibility:
+    """The meshed wheel of a run or of the study, condensed or taken from the cache."""
     made = wheel_recipe(study)
-    if study.solid.wheel == "rigid":
+    if (study.wheel(run) if run else study.solid.wheel) == "rigid":
         return rigid_wheel(made)
     return cached(elastic_wheel, WheelFlexibility, made)
+
+
+def modes_recipe(study: Study) -> ModesRecipe:
+    """Recipe of the wheel's elastic modes."""
+    return ModesRecipe(wheel_recipe(study), study.solid.wheel_frequency)
+
+
+def modes(study: Study, run: str) -> WheelModes | None:
+    """The elastic modes of a run's wheel, computed or taken from the cache; None without."""
+    if study.wheel(run) != "modal":
+        return None
+    return cached(wheel_modes, WheelModes, modes_recipe(study))
 
 
 def vehicle(study: Study) -> Vehicle:

@@ -5,10 +5,18 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from contactstudy.exceptions import InputError
+from contactstudy.profiles.wheel_body import wheel_dimensions, wheel_sections
 from contactstudy.study.messages import complaint
 from contactstudy.study.runs import PointRun, RunTable
 from contactstudy.study.section import Section
-from contactstudy.study.tables import IrregularityTable, JourneyTable, SolidTable, TrackTable
+from contactstudy.study.tables import (
+    IrregularityTable,
+    JourneyTable,
+    SolidTable,
+    TrackTable,
+    VehicleTable,
+)
 
 _SLACK = 1e-9  # relative, for lengths that were given in decimal
 
@@ -45,6 +53,9 @@ def combined(sections: Mapping[str, Any], runs: Mapping[str, RunTable]) -> list[
     pressed = any(isinstance(r, PointRun) and r.k_r == "tangent" for r in runs.values())
     if solid is not None and track is not None and (meshed or pressed):
         problems += _solid_on_track(solid, track, meshed)
+    vehicle: VehicleTable | None = sections.get("vehicle")
+    if solid is not None and vehicle is not None and (meshed or pressed):
+        problems += _wheel(solid, vehicle)
     if solid is not None and journey is not None and meshed and journey.start < journey.end:
         problems += _solid_on_journey(solid, journey)
     return problems
@@ -134,6 +145,23 @@ def _solid_on_track(solid: SolidTable, track: TrackTable, meshed: bool) -> list[
         allowed = f"must be at least solid.mesh_size, {solid.mesh_size:g} m"
         problems.append(complaint("solid.coarse_mesh_size", solid.coarse_mesh_size, allowed))
     return problems
+
+
+def _wheel(solid: SolidTable, vehicle: VehicleTable) -> list[str]:
+    try:
+        dimensions = wheel_dimensions(solid.wheel_section)
+    except InputError as error:
+        return [f"solid.wheel_section: {problem}" for problem in error.problems]
+    radius = vehicle.wheel_radius
+    if solid.wheel_section in wheel_sections():  # these are stretched to any radius
+        try:
+            dimensions.with_radius(radius)
+        except InputError as error:
+            return [f"vehicle.wheel_radius = {radius:g} m: {p}" for p in error.problems]
+    elif abs(dimensions.radius - radius) > _SLACK:
+        allowed = f"must be that of the wheel's section file, {dimensions.radius:g} m"
+        return [complaint("vehicle.wheel_radius", radius, allowed)]
+    return []
 
 
 def _solid_on_journey(solid: SolidTable, journey: JourneyTable) -> list[str]:

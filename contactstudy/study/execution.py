@@ -56,10 +56,12 @@ def _surface(study: Study, run: str, table: SurfaceRun, progress: Progress | Non
 
     return surface_contact(
         build.solid_track(study, build.track(study)),
-        build.wheel(study),
+        build.wheel(study, run),
         build.vehicle(study),
         irregularity_of(study, table.irregularity == "smooth"),
         build.journey(study, run),
+        modes=build.modes(study, run),
+        wheel_damping=study.solid.wheel_damping,
         penalty=study.solid.penalty,
         quadrature=study.solid.contact_points,
         tolerance=study.solid.tolerance,
@@ -71,17 +73,24 @@ def _surface(study: Study, run: str, table: SurfaceRun, progress: Progress | Non
 
 
 def condense_body(study: Study, body: str, progress: Progress | None = None) -> None:
-    """Condense the "rail" or the "wheel" of a study into the cache."""
+    """Condense the "rail", the "wheel" or the "wheel modes" of a study into the cache."""
     if body == "rail":
         build.solid_track(study, build.track(study))
-    else:
-        build.wheel(study)
+        return
+    for run in study.runs:
+        if body in study.bodies(run):
+            build.wheel(study, run) if body == "wheel" else build.modes(study, run)
+            return
 
 
 def is_condensed(study: Study, body: str) -> bool:
-    """Whether the cache has the "rail" or the "wheel" of a study."""
-    made = build.recipe(study) if body == "rail" else build.wheel_recipe(study)
-    return entry_path(made).exists()
+    """Whether the cache has the "rail", the "wheel" or the "wheel modes" of a study."""
+    recipes = {
+        "rail": build.recipe,
+        "wheel": build.wheel_recipe,
+        "wheel modes": build.modes_recipe,
+    }
+    return entry_path(recipes[body](study)).exists()
 
 
 def peak_memory_mb() -> float | None:

@@ -226,3 +226,7 @@ def _resolve_paths(data: dict[str, Any], base: Path) -> None:
         for key in _PATHS:
             if isinstance(table.get(key), str) and table[key]:
                 table[key] = str(base / table[key])
+    solid = data.get("solid")
+    section = solid.get("wheel_section") if isinstance(solid, dict) else None
+    if isinstance(section, str) and section.endswith(".toml"):
+        data["solid"] = {**data["solid"], "wheel_section": str(base / section)}

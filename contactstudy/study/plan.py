@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from contactstudy.profiles.wheel_body import file_digest
 from contactstudy.provenance import versions
 from contactstudy.study import store
 from contactstudy.study.loading import load_companions
@@ -35,11 +36,13 @@ class Plan:
     def run_key(self, run: str) -> str:
         """Hash of everything that goes into one run, code included."""
         study = self.study
-        table = study.runs[run].resolved() | {"time_step": study.time_step(run)}
+        table = study.config()["runs"][run]
         shared = {k: v for k, v in self.inputs.items() if k not in ("runs", "compare", "solid")}
         # Beams take their section from the solid's mesh, so its size matters to them as well.
-        solid = study.solid.resolved()
-        shared["solid"] = solid if study.runs[run].needs_solid else solid["mesh_size"]
+        solid = study.solid.resolved() | {"wheel_section": Path(study.solid.wheel_section).name}
+        shared["solid"] = solid if study.bodies(run) else solid["mesh_size"]
+        # with modes in another run the wheel is meshed more finely round its circumference
+        shared["modes"] = "wheel" in study.bodies(run) and study.has_wheel_modes
         shared["packages"] = versions()
         return store.digest([run, table, shared, dict(self.files), store.code_digest()])
 
@@ -64,12 +67,18 @@ def plan_study(study: Study, out_dir: Path) -> Plan:
     for key in ("file", "measured_overlay"):
         if inputs["irregularity"].get(key):  # the content counts, and paths are the machine's
             inputs["irregularity"][key] = Path(inputs["irregularity"][key]).name
+    files = dict(described.files)
+    section = study.solid.wheel_section
+    if digest := file_digest(section):
+        files[Path(section).name] = digest
+        if "solid" in inputs:
+            inputs["solid"]["wheel_section"] = Path(section).name
     return Plan(
         study=study,
         out_dir=out_dir,
         irregularity=described.info,
         inputs=inputs,
-        files=described.files,
+        files=files,
         warnings=described.warnings,
         companions=tuple(companions),
     )

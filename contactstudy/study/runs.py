@@ -69,9 +69,13 @@ class PointRun(RunTable):
 
 
 class SurfaceRun(RunTable):
-    """A run with ``solver = "surface"``: meshed wheel on meshed rail."""
+    """A run with ``solver = "surface"``: meshed wheel on meshed rail.
+
+    ``wheel`` is the study's when not given.
+    """
 
     solver: Literal["surface"] = "surface"
+    wheel: Literal["rigid", "quasi-static", "modal"] | None = None
 
     @property
     def needs_solid(self) -> bool:

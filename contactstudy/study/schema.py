@@ -68,11 +68,23 @@ class Study:
         return pressed and self.track.rail != "given"
 
     def bodies(self, run: str) -> tuple[str, ...]:
-        """Condensed bodies that a run needs: "rail", "wheel"."""
+        """Condensed bodies that a run needs: "rail", "wheel", "wheel modes"."""
         surface = isinstance(self.runs[run], SurfaceRun)
         rail = self.runs[run].needs_solid or self.presses(run)
-        wheel = (surface or self.presses(run)) and self.solid.wheel == "elastic"
-        return ("rail",) * rail + ("wheel",) * wheel
+        wheel = (surface or self.presses(run)) and self.wheel(run) != "rigid"
+        modes = surface and self.wheel(run) == "modal"
+        return ("rail",) * rail + ("wheel",) * wheel + ("wheel modes",) * modes
+
+    def wheel(self, run: str) -> str:
+        """Model of the meshed wheel in a run: its own or the study's."""
+        table = self.runs[run]
+        own = table.wheel if isinstance(table, SurfaceRun) else None
+        return own or self.solid.wheel
+
+    @property
+    def has_wheel_modes(self) -> bool:
+        """Whether any run is with the wheel's elastic modes."""
+        return any("wheel modes" in self.bodies(run) for run in self.runs)
 
     def time_step(self, run: str) -> float:
         """Time step of a run in s: its own or the journey's."""
@@ -84,7 +96,9 @@ class Study:
         tables: dict[str, Any] = {key: getattr(self, key).resolved() for key in self._used()}
         if self.runs:
             tables["runs"] = {
-                name: run.resolved() | {"time_step": self.time_step(name)}
+                name: run.resolved()
+                | {"time_step": self.time_step(name)}
+                | ({"wheel": self.wheel(name)} if isinstance(run, SurfaceRun) else {})
                 for name, run in self.runs.items()
             }
         if self.reference:

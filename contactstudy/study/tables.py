@@ -164,7 +164,11 @@ class JourneyTable(Section):
 
 
 class SolidTable(Section):
-    """``[solid]``: the meshed rail and wheel of surface contact."""
+    """``[solid]``: the meshed rail and wheel of surface contact.
+
+    The modes of a modal wheel go up to ``wheel_frequency``; their damping ratio is an assumption,
+    see `contactstudy.solvers.surface.WHEEL_DAMPING`. A run may have another ``wheel``.
+    """
 
     mesh_size: q.MeshSize = 0.002
     coarse_mesh_size: q.CoarseMeshSize = 0.009
@@ -177,7 +181,10 @@ class SolidTable(Section):
     penalty: q.Penalty = 1e16
     enforcement: Literal["penalty", "augmented"] = "penalty"
     penetration_tolerance: q.Length = 1e-9
-    wheel: Literal["elastic", "rigid"] = "elastic"
+    wheel: Literal["rigid", "quasi-static", "modal"] = "quasi-static"
+    wheel_section: str = "straight_860"
+    wheel_frequency: q.Frequency = 5000.0
+    wheel_damping: q.Fraction = 1e-3
     pressure_at: tuple[q.Position, ...] = ()
     animation_frames: q.CountOrZero = 0
     animation_span: tuple[q.Position, ...] = ()
