@@ -146,17 +146,13 @@ class PlacedWheel:
 
         Only there can the circle of arc length s touch a prismatic rail. With the profile's
         normal ``(n_y, n_z)`` and the rows R of the rotation the condition is
-        ``-R_xx n_z sin(a) + R_xz n_z cos(a) = -R_xy n_y`` for ``x = r sin(a)``.
-
-        Raises
-        ------
-        InputError
-            If the flange is so steep, or the yaw so large, that there is no such place.
+        ``-R_xx n_z sin(a) + R_xz n_z cos(a) = -R_xy n_y`` for ``x = r sin(a)``. Where the flange
+        is so steep that there is no such place, the circle cannot touch, and the place nearest
+        to it is returned.
         """
         c, n = self.curve.point(s), self.curve.normal(s)
         r_xx, r_xy, r_xz = self.pose.to_rail[0]
         sine, cosine = -r_xx * n[:, 1], r_xz * n[:, 1]
         share = -r_xy * n[:, 0] / np.hypot(sine, cosine)
-        # no place: the circle's most forward point, which cannot touch
         angle = np.arcsin(np.clip(share, -0.999, 0.999)) - np.arctan2(cosine, sine)
         return np.asarray((self.radius - c[:, 1]) * np.sin(angle))
