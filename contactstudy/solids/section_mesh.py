@@ -157,7 +157,7 @@ class _Grading:
         fine = low + (high - low) / count * np.arange(count + 1)
         if low <= 0.0 <= high:
             # a line on the axis, which both halves share
-            fine = h * np.arange(np.floor(low / h + 1e-9), np.ceil(high / h - 1e-9) + 1)
+            fine = h * np.arange(np.ceil(low / h - 0.499), np.floor(high / h + 0.499) + 1)
         fine = fine[fine >= -1e-9 * h]
         if not len(fine):
             # all of the fine zone lies on the other half: go on growing from where it ends

@@ -38,7 +38,7 @@ class Geometry:
     rail: ProfileCurve
     wheel: ProfileCurve
     radius: float
-    pose: Pose = Pose()
+    pose: Pose
 
     @classmethod
     def of(cls, wheel: WheelFlexibility, pose: Pose | None = None) -> "Geometry":
