@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from contactstudy.verification.check import CaseResult, Check, Plot, Table, curve
-from contactstudy.verification.manchester import ManchesterRow, manchester_rows
+from contactstudy.verification.manchester import ManchesterRow, Side, manchester_rows
 
 SOURCE = "CONTACT 25.2, published reference output"
 # case: approach [m], peak pressure [Pa], area [m^2], |y| on the rail [m], left wheel
@@ -11,6 +11,7 @@ PUBLISHED = {
     1: (15.96e-6, 338.3e6, 51.64e-6, 8.66e-3),
     11: (22.32e-6, 552.8e6, 27.68e-6, 2.637e-3),
 }
+_REFINED: tuple[tuple[int, Side], ...] = ((1, "left"), (11, "left"), (21, "right"))
 APPROACH_BAND, PRESSURE_BAND, AREA_BAND, POSITION_BAND = 0.03, 0.05, 0.05, 0.05
 """Of the value; of the position: of the patch's semi-axis across."""
 
@@ -50,7 +51,7 @@ def manchester() -> CaseResult:
         "Manchester contact benchmark A-2.2, all positions",
         METHOD,
         published_checks(rows),
-        (rows_table(rows, "left"), rows_table(rows, "right")),
+        (rows_table(rows, "left"), rows_table(rows, "right"), _smaller_cells()),
         tuple(
             _plot(rows, name, label, scale)
             for name, label, scale in (
@@ -96,6 +97,26 @@ def rows_table(rows: list[ManchesterRow], wheel: str) -> Table:
             for r in rows
             if r.wheel == wheel
         ),
+    )  # fmt: skip
+
+
+def _smaller_cells() -> Table:
+    """The published rows, and the narrowest patch, on smaller cells."""
+    sides = (0.2e-3, 0.1e-3, 0.05e-3)
+    rows = []
+    for case, wheel in _REFINED:
+        for side in sides:
+            r = manchester_rows((case,), (wheel,), side=side)[0]
+            rows.append(
+                (1e3 * r.shift, wheel, 1e3 * side, 1e3 * r.across, 1e6 * r.approach,
+                 1e-6 * r.peak_pressure, 1e6 * r.area)
+            )  # fmt: skip
+    return Table(
+        "What the cells of 0.2 mm leave: the same positions on smaller ones. The area shrinks, "
+        "since cells count whole.",
+        ("shift (mm)", "wheel", "cell (mm)", "semi-axis across (mm)", "approach (µm)",
+         "peak pressure (MPa)", "area (mm²)"),
+        tuple(rows),
     )  # fmt: skip
 
 
