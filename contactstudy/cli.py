@@ -10,7 +10,7 @@ import sys
 import threading
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import cyclopts
 from cyclopts import App, Parameter
@@ -18,6 +18,9 @@ from rich.console import Console
 
 from contactstudy import __version__
 from contactstudy.exceptions import ContactStudyError
+
+if TYPE_CHECKING:
+    from contactstudy.study.positions import PositionsStudy
 
 app = App(
     name="contactstudy",
@@ -54,9 +57,12 @@ def run(
         Folder for the results; finished runs found there are not computed again.
     """
     from contactstudy.study.loading import load_study
+    from contactstudy.study.positions import load_positions
     from contactstudy.study.runner import run_study
     from contactstudy.study.terminal import TerminalReporter, print_summary
 
+    if (positions := load_positions(study, overrides)) is not None:
+        return _run_positions(positions, out)
     loaded = load_study(study, overrides)
     with TerminalReporter(_errors()) as reporter:
         results = run_study(loaded, out, jobs, reporter)
@@ -74,7 +80,12 @@ def check(study: str, *, overrides: Overrides = ()) -> None:
     """
     from contactstudy.study.forecast import print_check
     from contactstudy.study.loading import load_study
+    from contactstudy.study.positions import load_positions
+    from contactstudy.study.positions_terminal import print_positions_check
 
+    if (positions := load_positions(study, overrides)) is not None:
+        print_positions_check(positions, Console())
+        return
     print_check(load_study(study, overrides), Console())
 
 
@@ -95,13 +106,20 @@ def reproduce(
         Folder for the results.
     """
     from contactstudy.study.loading import load_study
+    from contactstudy.study.positions import PositionsStudy, load_positions
     from contactstudy.study.runner import run_study
     from contactstudy.study.terminal import TerminalReporter, print_summary
 
     main_study = "point_vs_surface"
-    loaded = [load_study(name, overrides) for name in names or (main_study,)]
+    loaded = [
+        load_positions(name, overrides) or load_study(name, overrides)
+        for name in names or (main_study,)
+    ]
     for study in loaded:
         folder = out if study.name == main_study else out / study.name
+        if isinstance(study, PositionsStudy):
+            _run_positions(study, folder)
+            continue
         with TerminalReporter(_errors()) as reporter:
             results = run_study(study, folder, jobs, reporter)
         print_summary(results, folder, Console())
@@ -197,6 +215,19 @@ def studies() -> None:
     for name, path in shipped.items():
         title = tomllib.loads(path.read_text("utf-8")).get("title", "")
         print(f"{name:<{width}}  {title}")
+
+
+def _run_positions(study: PositionsStudy, out: Path) -> None:
+    from contactstudy.report.positions import write_positions
+    from contactstudy.study.positions_run import run_positions
+    from contactstudy.study.positions_terminal import print_positions
+    from contactstudy.study.terminal import TerminalReporter
+
+    with TerminalReporter(_errors()) as reporter:
+        data = run_positions(study, out, reporter)
+        with reporter.stage("drawing and typesetting"):
+            write_positions(data, out)
+    print_positions(data, out, Console())
 
 
 def _errors() -> Console:

@@ -40,7 +40,7 @@ def write_verification(outcomes: Sequence[Outcome], about: dict[str, Any], out_d
                     pdf, _ = save(draw(plot), out_dir / "figures", name)
                     (root / "figures").mkdir(exist_ok=True)
                     (root / "figures" / f"{name}.pdf").write_bytes(pdf.read_bytes())
-        path.write_bytes(typeset(root, ("verification.typ",), content(outcomes, about)))
+        path.write_bytes(typeset(root, ("sections.typ",), content(outcomes, about)))
     return out_dir / PDF_FILE
 
 

@@ -26,10 +26,12 @@ STORE = "runs"
 _NOT_COMPUTING = (
     "figures",
     "report",
+    "verification",
     "cli.py",
     "study/fields.py",
     "study/forecast.py",
     "study/metrics.py",
+    "study/positions_terminal.py",
     "study/results.py",
     "study/terminal.py",
 )

@@ -60,14 +60,17 @@ def run_cases(
 
 
 def about() -> dict[str, Any]:
-    """Versions of everything that computes, and the hash of the program's code."""
+    """Versions of everything that computes, and the hash of the program's and the cases' code."""
     found = versions()
     for package in _OPTIONAL:
         try:
             found[package] = version(package)
         except PackageNotFoundError:
             continue
-    return {"versions": found, "code": store.code_digest()}
+    own = {
+        path.name: store.file_digest(path) for path in sorted(Path(__file__).parent.glob("*.py"))
+    }
+    return {"versions": found, "code": store.digest([store.code_digest(), own])}
 
 
 def complaints(outcomes: Sequence[Outcome]) -> list[str]:

@@ -1,0 +1,160 @@
+"""Presses at all positions of a study, kept one by one; results as a dataset and as CSV."""
+
+from __future__ import annotations
+
+import csv
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from contactstudy.contact.patches import press_wheel
+from contactstudy.contact.wheelset import Side
+from contactstudy.exceptions import InputError, NumericalError
+from contactstudy.provenance import provenance, versions
+from contactstudy.study import store
+from contactstudy.study.files import ensure_writable, writing
+from contactstudy.study.positions import PositionsStudy
+from contactstudy.study.reporter import Quiet, Reporter
+from contactstudy.study.results import RESULT_FILE
+
+CSV_FILE = "patches.csv"
+# name -> unit, meaning
+VARIABLES = {
+    "lateral": ("m", "lateral shift of the wheelset, to the right"),
+    "yaw": ("rad", "yaw of the wheelset, clockwise seen from above"),
+    "roll": ("rad", "roll of the wheelset, right side down"),
+    "y": ("m", "contact position on the rail, to the field side"),
+    "z": ("m", "contact position, up from the crown"),
+    "x": ("m", "centre of pressure ahead of the axle"),
+    "wheel_s": ("m", "centre of pressure on the wheel, arc length from the tape circle"),
+    "angle": ("rad", "contact angle"),
+    "normal_force": ("N", "normal force"),
+    "vertical_force": ("N", "vertical force"),
+    "approach": ("m", "largest overlap of the undeformed bodies along the normal"),
+    "peak_pressure": ("Pa", "peak pressure"),
+    "area": ("m^2", "area under pressure"),
+    "along": ("m", "semi-axis along, of the ellipse with the pressure's second moments"),
+    "across": ("m", "semi-axis across"),
+}
+
+
+def run_positions(
+    study: PositionsStudy, out_dir: Path, reporter: Reporter | None = None
+) -> xr.Dataset:
+    """Press both wheels at every position; write result.nc and patches.csv.
+
+    Positions that are finished in `out_dir` are not computed again.
+
+    Parameters
+    ----------
+    study : PositionsStudy
+    out_dir : Path
+    reporter : Reporter, optional
+
+    Returns
+    -------
+    xarray.Dataset
+        One entry of the dimension ``row`` a contact patch, by wheel, position and falling force.
+
+    Raises
+    ------
+    InputError, NumericalError
+        If a position cannot be pressed, with its place; the others are kept.
+    """
+    reporter = reporter or Quiet()
+    ensure_writable(out_dir)
+    todo: list[tuple[Side, int]] = [
+        (side, k) for side in study.table.wheels for k in range(len(study.positions))
+    ]
+    reporter.begin("positions", len(todo))
+    rows = []
+    for done, (side, k) in enumerate(todo):
+        reporter.progress("positions", done, len(todo))
+        rows += _kept(study, side, k, out_dir)
+    reporter.end("positions", True)
+    data = _dataset(study, rows)
+    with writing(out_dir / RESULT_FILE) as path:
+        data.to_netcdf(path, engine="h5netcdf")
+    with writing(out_dir / CSV_FILE) as path:
+        _write_csv(path, rows)
+    return data
+
+
+def _kept(study: PositionsStudy, side: Side, k: int, out_dir: Path) -> list[dict[str, Any]]:
+    """Patches of one wheel at one position, from the store or computed and stored."""
+    settings = {
+        key: v for key, v in study.config().items() if key not in ("lateral", "yaw", "roll")
+    }
+    profiles = {c.name: _curve_digest(c) for c in (study.wheelset.wheel, study.wheelset.rail)}
+    inputs = [side, study.positions[k], settings, profiles, store.code_digest(), versions()]
+    path = out_dir / store.STORE / f"{side}_{k + 1:03d}-{store.digest(inputs)}.json"
+    try:
+        kept = json.loads(path.read_text("utf-8"))
+        if kept["sha256"] == store.digest(kept["rows"], 64):
+            return list(kept["rows"])
+    except (OSError, ValueError, KeyError, TypeError):
+        pass  # none, or damaged
+    rows = _pressed(study, side, k)
+    with writing(path) as temporary:
+        text = json.dumps({"sha256": store.digest(rows, 64), "rows": rows})
+        temporary.write_text(text + "\n", "utf-8")
+    return rows
+
+
+def _curve_digest(curve: Any) -> str:
+    s = np.linspace(*curve.s_range, 2001)
+    return store.digest(np.asarray(curve.point(s)).tolist())
+
+
+def _pressed(study: PositionsStudy, side: Side, k: int) -> list[dict[str, Any]]:
+    shift, yaw, roll = study.positions[k]
+    table, wheelset = study.table, study.wheelset
+    where = f"{side} wheel at {1e3 * shift:g} mm and {1e3 * yaw:g} mrad"
+    try:
+        turned = wheelset.rest_roll(shift, yaw) if roll is None else roll
+        placed = wheelset.placed(side, shift, yaw, turned)
+        press = press_wheel(placed, wheelset.rail, table.load, study.modulus, side=table.cell)
+    except InputError as error:
+        raise InputError([f"{where}: {problem}" for problem in error.problems]) from error
+    except NumericalError as error:
+        raise NumericalError(f"{where}: {error}") from error
+    rows = []
+    for number, p in enumerate(press.patches, start=1):
+        row: dict[str, Any] = {"wheel": side, "position": k + 1, "patch": number}
+        row |= {"lateral": shift, "yaw": yaw, "roll": turned}
+        row |= {"y": p.reference.y - table.origin, "z": p.reference.z, "angle": p.reference.angle}
+        names = [name for name in VARIABLES if name not in row]
+        rows.append(row | {name: float(getattr(p, name)) for name in names})
+    return rows
+
+
+def _dataset(study: PositionsStudy, rows: list[dict[str, Any]]) -> xr.Dataset:
+    data = xr.Dataset()
+    data["wheel"] = ("row", np.array([row["wheel"] for row in rows], dtype=object))
+    for name in ("position", "patch"):
+        data[name] = ("row", np.array([row[name] for row in rows], dtype=np.int64))
+    for name, (unit, meaning) in VARIABLES.items():
+        attrs = {"units": unit, "long_name": meaning}
+        data[name] = ("row", np.array([float(row[name]) for row in rows]), attrs)
+    key = store.digest([study.config(), store.code_digest(True), versions()])
+    data.attrs = {
+        "name": study.name,
+        "title": study.title,
+        "description": study.description,
+        "config": json.dumps(study.config(), ensure_ascii=False),
+        "units": json.dumps(study.table.units(), ensure_ascii=False),
+        "provenance": json.dumps(provenance(None, key, None, {}), ensure_ascii=False),
+    }
+    return data
+
+
+def _write_csv(path: Path, rows: list[dict[str, Any]]) -> None:
+    with path.open("w", encoding="utf-8", newline="") as stream:
+        writer = csv.writer(stream, lineterminator="\n")
+        names = ("wheel", "position", "patch", *VARIABLES)
+        units = {name: unit for name, (unit, _) in VARIABLES.items()}
+        writer.writerow([f"{n} [{units[n]}]" if n in units else n for n in names])
+        writer.writerows([row[name] for name in names] for row in rows)

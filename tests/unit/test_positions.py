@@ -1,0 +1,146 @@
+"""Studies of positions: the table, the command, kept positions, results, report."""
+
+import csv
+import math
+import shutil
+import subprocess
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from contactstudy import cli
+from contactstudy.contact.hertz import contact_modulus, hertz_contact
+from contactstudy.exceptions import InputError, NumericalError
+from contactstudy.study import positions_run
+from contactstudy.study.positions import Series, load_positions
+from contactstudy.study.positions_run import run_positions
+from contactstudy.units import UnitError
+
+HERTZ = """
+title = "A cylinder on the crown"
+[positions]
+lateral = ["0 mm", "1 mm"]
+roll = 0
+wheels = ["right"]
+wheel_profile = "cylinder"
+rail_inclination = 0
+wheel_radius = "460 mm"
+load = "67.4 kN"
+cell = "0.5 mm"
+"""
+
+
+@pytest.fixture
+def study(tmp_path):
+    path = tmp_path / "crown.toml"
+    path.write_text(HERTZ)
+    return path
+
+
+def test_series():
+    read = Series("m", at_least=-0.1, at_most=0.1)
+    assert read("0 mm to 10 mm by 0.5 mm") == tuple(round(0.5e-3 * k, 6) for k in range(21))
+    assert read("10 mm to 0 mm by -5 mm") == (0.01, 0.005, 0.0)
+    assert read(["1 mm", 0.002]) == (0.001, 0.002) and read("3 mm") == (0.003,)
+    for wrong in ("0 mm to 1 mm by 0.3 mm", "0 mm to 1 mm by 0 mm", "0 to 1 by -1", []):
+        with pytest.raises(UnitError):
+            read(wrong)
+    with pytest.raises(UnitError, match=r"at least -0.1 and at most 0.1 m"):
+        read("0 m to 1 m by 0.5 m")
+
+
+def test_shipped_study_is_the_benchmark():
+    study = load_positions("manchester")
+    assert len(study.positions) == 21 and study.table.wheels == ("left", "right")
+    assert study.positions[10][:2] == (0.005, 0.012)
+    assert study.table.rail_inclination == math.atan(1 / 40)
+    assert study.modulus == pytest.approx(82e9 / 0.72)
+    assert load_positions("smooth_rail") is None
+
+
+def test_every_problem_at_once(tmp_path):
+    path = tmp_path / "wrong.toml"
+    path.write_text(
+        'journey = 1\n[positions]\nlateral = ["0 mm", "1 mm"]\nyaw = [0, 1e-3, 2e-3]\n'
+        'wheel_profile = "S1003"\nrail_profile = "gone.csv"\nrail_inclinaton = "1:40"\n'
+    )
+    with pytest.raises(InputError) as error:
+        load_positions(path)
+    text = str(error.value)
+    assert "journey: unknown key" in text
+    assert "rail_inclinaton: unknown key (did you mean 'rail_inclination'?)" in text
+    path.write_text(path.read_text().replace('rail_inclinaton = "1:40"\n', 'load = "5 kg"\n'))
+    with pytest.raises(InputError, match="wrong unit 'kg'"):
+        load_positions(path)
+    path.write_text(path.read_text().replace('load = "5 kg"\n', ""))
+    with pytest.raises(InputError) as error:
+        load_positions(path)
+    text = str(error.value)
+    assert "positions.yaw: has 3 values; must have one, or one for each of the 2" in text
+    assert "positions.wheel_profile" in text and "S1003" in text
+    assert f"positions.rail_profile: {tmp_path / 'gone.csv'}" in text
+
+
+def test_cylinder_on_the_crown_is_hertz(study, tmp_path):
+    loaded = load_positions(study)
+    data = run_positions(loaded, tmp_path / "out")
+    exact = hertz_contact(67.4e3, contact_modulus(), 0.46, 0.3)
+    print(f"Hertz {exact}\ncomputed {data.isel(row=0)}")
+    assert data.sizes["row"] == 2
+    for row in range(2):  # the cylinder does not feel the shift
+        assert float(data.approach[row]) == pytest.approx(exact.approach, rel=5e-3)
+        assert float(data.peak_pressure[row]) == pytest.approx(exact.peak_pressure, rel=5e-3)
+        assert float(data.area[row]) == pytest.approx(exact.area, rel=0.03)
+        assert float(data.along[row]) == pytest.approx(exact.semi_axis_x, rel=5e-3)
+        assert float(data.y[row]) == pytest.approx(0.0, abs=1e-6)
+
+
+def test_positions_are_kept(study, tmp_path, monkeypatch):
+    loaded, calls = load_positions(study), []
+    press = positions_run.press_wheel
+
+    def counted(*arguments, **more):
+        calls.append(1)
+        return press(*arguments, **more)
+
+    monkeypatch.setattr(positions_run, "press_wheel", counted)
+    out = tmp_path / "out"
+    first = run_positions(loaded, out)
+    before = (out / "result.nc").read_bytes()
+    run_positions(loaded, out)
+    assert len(calls) == 2 and (out / "result.nc").read_bytes() == before
+    kept = sorted((out / "runs").glob("*.json"))[0]
+    kept.write_text(kept.read_text()[:-30])  # damaged
+    assert run_positions(loaded, out).equals(first) and len(calls) == 3
+    read = xr.load_dataset(out / "result.nc", engine="h5netcdf")
+    assert read.peak_pressure.attrs["units"] == "Pa" and list(read.wheel.values) == ["right"] * 2
+    with (out / "patches.csv").open() as stream:
+        rows = list(csv.DictReader(stream))
+    np.testing.assert_allclose([float(r["approach [m]"]) for r in rows], read.approach)
+
+
+def test_an_impossible_position_says_where(tmp_path):
+    path = tmp_path / "far.toml"
+    path.write_text(HERTZ.replace('"1 mm"]', '"90 mm"]'))
+    with pytest.raises((InputError, NumericalError), match="right wheel at 90 mm and 0 mrad"):
+        run_positions(load_positions(path), tmp_path / "out")
+    assert len(list((tmp_path / "out" / "runs").glob("*.json"))) == 1  # the first is kept
+
+
+def test_commands(study, tmp_path, capsys):
+    out = tmp_path / "out"
+    assert cli.main(["check", str(study)]) == 0
+    assert "positions.load" in (text := capsys.readouterr().out) and "2 presses" in text
+    assert cli.main(["run", str(study), "--out", str(out), "--set", "positions.load=50 kN"]) == 0
+    text = capsys.readouterr().out
+    assert "A cylinder on the crown: right wheel" in text and " 50.0" in text
+    if (reader := shutil.which("pdftotext")) is not None:
+        made = subprocess.run([reader, "-layout", out / "report.pdf", "-"], capture_output=True)
+        text = made.stdout.decode()
+        assert "A cylinder on the crown" in text and "peak (MPa)" in text
+    assert (out / "figures" / "positions_area.png").is_file()
+    assert cli.main(["run", str(study), "--out", str(out), "--set", "positions.lod=5"]) == 2
+    assert "positions.lod: unknown key" in capsys.readouterr().err
+    assert cli.main(["studies"]) == 0
+    assert "manchester " in capsys.readouterr().out

@@ -1,0 +1,53 @@
+"""Wheelset on its rails: poses, and the roll at rest against the benchmark's."""
+
+import math
+
+import pytest
+
+from contactstudy.contact.patches import press_wheel
+from contactstudy.contact.wheelset import SIDES, Wheelset
+from contactstudy.exceptions import InputError
+from contactstudy.profiles.curve import rail_curve, wheel_curve
+from contactstudy.verification import manchester as m
+
+
+@pytest.fixture(scope="module")
+def wheelset():
+    return Wheelset(wheel_curve("S1002"), rail_curve(m.RAIL), m.RADIUS)
+
+
+def test_poses_are_the_benchmarks(wheelset):
+    assert wheelset.gauge_point() == pytest.approx(m.gauge_point(), abs=1e-12)
+    for case in (1, 11, 21):
+        for side in SIDES:
+            mine = wheelset.pose(side, 0.5e-3 * (case - 1), 1.2e-3 * (case - 1), m.ROLL[case - 1])
+            theirs = m.benchmark_pose(case, side)
+            assert mine.lateral == pytest.approx(theirs.lateral, abs=1e-12)
+            assert (mine.roll, mine.yaw) == (theirs.roll, theirs.yaw)
+
+
+def test_centred_wheelset_rests_level(wheelset):
+    assert wheelset.rest_roll(0.0, 0.0) == pytest.approx(0.0, abs=1e-9)
+
+
+def test_rest_roll_is_contacts_less_the_approaches(wheelset):
+    """CONTACT's wheelset has sunk by its approaches: they turn it by their difference."""
+    case, shift, yaw = 6, 2.5e-3, 6e-3
+    found = wheelset.rest_roll(shift, yaw)
+    sunk = {}
+    for side in SIDES:
+        placed = wheelset.placed(side, shift, yaw, m.ROLL[case - 1])
+        sunk[side] = press_wheel(placed, wheelset.rail, m.LOAD, m.MODULUS, side=0.5e-3).travel
+        sunk[side] -= press_wheel(placed, wheelset.rail, 1.0, m.MODULUS).travel
+    expected = m.ROLL[case - 1] + (sunk["left"] - sunk["right"]) / (2 * wheelset.half)
+    print(f"roll at rest {found:.5e}; CONTACT's without its approaches {expected:.5e}")
+    assert found == pytest.approx(expected, abs=2e-7)
+
+
+def test_impossible_wheelsets():
+    with pytest.raises(InputError) as error:
+        Wheelset(wheel_curve("S1002"), rail_curve(), -0.4, gauge=0.0)
+    assert len(error.value.problems) == 2
+    with pytest.raises(InputError, match="does not reach so far"):
+        Wheelset(wheel_curve("S1002"), rail_curve(), 0.43, gauge_depth=0.5).gauge_point()
+    assert math.isclose(Wheelset(wheel_curve("cone"), rail_curve(), 0.43).half, 0.75)
