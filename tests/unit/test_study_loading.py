@@ -13,6 +13,7 @@ from contactstudy.study.loading import (
     parse_study,
     shipped_studies,
 )
+from contactstudy.study.positions import load_positions
 
 
 def problems_of(data: dict) -> tuple[str, ...]:
@@ -60,6 +61,9 @@ def test_the_shipped_comparison_is_the_issues():
 
 def test_every_shipped_study_loads():
     for name in shipped_studies():
+        if (positions := load_positions(name)) is not None:
+            assert positions.name == name and positions.title
+            continue
         overrides = ["irregularity.file=level.csv"] if name == "measured_level" else []
         study = load_study(name, overrides)
         assert study.name == name and study.title
@@ -209,7 +213,7 @@ def test_a_misspelt_run_in_an_override_names_the_run_that_is_meant():
 def test_misspelt_study_names_get_close_matches(tmp_path):
     with pytest.raises(InputError, match="did you mean 'smooth_rail'"):
         find_study("smoth_rail")
-    with pytest.raises(InputError, match="shipped: measured_level"):
+    with pytest.raises(InputError, match="shipped: manchester, measured_level"):
         find_study(tmp_path / "nowhere.toml")
 
 
