@@ -67,4 +67,7 @@ def _caption(results: StudyResults) -> str:
             f"{number(area.max())} mm² (mean {number(area.mean())} mm²) and the peak pressure "
             f"between {number(peak.min())} and {number(peak.max())} MPa."
         )
+        if has_signal(run, "penetration"):
+            left = values(run, "penetration")[keep].max() * 1e9
+            text += f" The bodies overlap by at most {number(left)} nm."
     return text

@@ -2,7 +2,8 @@
 
 ::
 
-    runs.<name>:  dofs, steps, dt [s], seconds {setup, stepping}, peak_memory_mb
+    runs.<name>:  dofs, steps, dt [s], seconds {setup, stepping}, peak_memory_mb, and of surface
+                  contact the largest penetration left [m], in the run and in its static press
     reference:    name of the run that all others are compared with
     comparisons.<name>.<signal>:
         relative_l2, relative_l2_dynamic, linf, rms, correlation,
@@ -57,6 +58,7 @@ def study_metrics(
                 "dofs": int(run.attrs["dofs"]),
                 "steps": int(run.attrs["steps"]),
                 "dt": float(run.attrs["dt"]),
+                **_penetration(run),
                 **costs[name],
             }
             for name, run in runs.items()
@@ -72,6 +74,11 @@ def study_metrics(
             if name != reference
         }
     return result
+
+
+def _penetration(run: xr.Dataset) -> dict[str, float]:
+    found = {"penetration": "penetration", "penetration_of_press": "press_penetration"}
+    return {key: float(run[name].max()) for key, name in found.items() if name in run}
 
 
 def compare_runs(run: xr.Dataset, reference: xr.Dataset, start: float) -> dict[str, Any]:

@@ -34,6 +34,13 @@ def metrics(**runs: xr.Dataset) -> dict:
     return study_metrics(runs, dict.fromkeys(runs, COST), "surface", compare_from=9.0)
 
 
+def test_penetration_left_by_surface_contact():
+    data = run(1e-4).assign(penetration=("time", np.array([0.0, 2e-9, *np.zeros(4799)])))
+    data = data.assign(press_penetration=("press", np.array([1e-9, 3e-9])))
+    found = metrics(surface=data)["runs"]["surface"]
+    assert found["penetration"] == 2e-9 and found["penetration_of_press"] == 3e-9
+
+
 def test_layout_and_json():
     found = metrics(surface=run(1e-4), point=run(1e-4, 1.05))
     assert found["runs"]["point"] == {"dofs": 7, "steps": 4800, "dt": 1e-4, **COST}
