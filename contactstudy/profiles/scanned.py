@@ -180,7 +180,8 @@ def fit_wheel_tread(
         y = _turned(p[part], yaw)[:, 1]
         fit = fit_cloud(np.stack([y, -rho], axis=-1), shortest, name, all_knots=True)
         # d rho = -u dx0 - v dz0 + u y dyaw, and the residual changes by -n_h d rho
-        n_h = fit.normal[:, 1]
+        # (n_h alone, times a constant, belongs to the curve: only what differs along x counts)
+        n_h, u, v = fit.normal[:, 1], u - u.mean(), v - v.mean()
         change, covariance = _regressed(fit, np.stack([n_h * u, n_h * v, -n_h * u * y], axis=-1))
         x0, z0, yaw = x0 - change[0], z0 - change[1], yaw - change[2]
         # the curve follows the axis, so the radius at the tape circle is as uncertain as z0

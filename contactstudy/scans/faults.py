@@ -143,8 +143,8 @@ def _inward(
         return []
     where = "up" if body == "rail" else "down"
     return [
-        f"{triangles(int(turned.sum()))} turned inside out: the normals of the running surface must "
-        f"point out of the body ({where}){at(sound[turned])}"
+        f"{triangles(int(turned.sum()))} turned inside out: the normals of the running surface "
+        f"must point out of the body ({where}){at(sound[turned])}"
     ]
 
 
