@@ -89,7 +89,9 @@ def test_small_roughness_is_the_linear_spring_on_the_same_rail() -> None:
 
 
 def test_pressure_field_carries_the_force() -> None:
-    data = smooth_run(pressure_at=(1.3, 1.5), integrator=generalised_alpha(0.8))
+    data = smooth_run(
+        pressure_at=(1.3, 1.5), frames_at=(1.3, 1.4, 1.5), integrator=generalised_alpha(0.8)
+    )
     assert data.pressure.dims == ("instant", "point")
     np.testing.assert_allclose(data.instant_position, [1.3, 1.5], atol=0.005)
     for k in range(2):
@@ -102,6 +104,15 @@ def test_pressure_field_carries_the_force() -> None:
         assert np.all(data[name].values > 0)
         assert data[name].attrs["units"]
     assert float(data.penetration.max()) < 0.01 * 100e-6
+    # the frames are the same fields; the status adds up to the recorded area in contact
+    np.testing.assert_array_equal(data.frame_pressure[::2], data.pressure)
+    np.testing.assert_allclose(data.frame_position, [1.3, 1.4, 1.5], atol=0.005)
+    area = float((data.contact_status[0] * data.point_area).sum())
+    assert area == pytest.approx(float(np.interp(1.3, data.position, data.contact_area)), rel=0.03)
+    # at every point sqrt(3) tau <= von Mises <= 2 tau, so the maxima keep this as well
+    ratio = data.von_mises.values / data.maximum_shear.values
+    assert np.all((ratio > np.sqrt(3.0) - 1e-9) & (ratio < 2.0 + 1e-9))
+    assert np.all((data.maximum_shear_depth > 1e-3) & (data.maximum_shear_depth < 5e-3))
 
 
 def test_wrong_arguments_are_refused_together() -> None:
