@@ -13,6 +13,7 @@ import xarray as xr
 from contactstudy.contact.patches import press_wheel
 from contactstudy.contact.wheelset import Side
 from contactstudy.exceptions import InputError, NumericalError
+from contactstudy.profiles.curve import ProfileCurve
 from contactstudy.provenance import provenance, versions
 from contactstudy.study import store
 from contactstudy.study.files import ensure_writable, writing
@@ -104,7 +105,7 @@ def _kept(study: PositionsStudy, side: Side, k: int, out_dir: Path) -> list[dict
     return rows
 
 
-def _curve_digest(curve: Any) -> str:
+def _curve_digest(curve: ProfileCurve) -> str:
     s = np.linspace(*curve.s_range, 2001)
     return store.digest(np.asarray(curve.point(s)).tolist())
 
