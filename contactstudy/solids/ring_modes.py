@@ -52,8 +52,8 @@ class RingFamily:
         """Displacements in the plane at an angle."""
         c, s = np.cos(self.waves * theta), np.sin(self.waves * theta)
         turning = _tangential(len(self.vectors))
-        factor = np.where(turning, s, c) if symmetric else np.where(turning, -c, s)
-        return np.asarray(factor[:, None] * self.vectors)
+        tangential, others = (s, c) if symmetric else (-c, s)
+        return np.asarray(np.where(turning, tangential, others)[:, None] * self.vectors)
 
 
 def ring_families(

@@ -11,6 +11,7 @@ its elastic modes are in `wheel_modes`.
 """
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -91,57 +92,23 @@ def elastic_wheel(recipe: WheelRecipe) -> WheelFlexibility:
     WheelFlexibility
     """
     section = recipe.section()
-    angles = recipe.angles
-    steps = np.diff(angles)
-    n_near = len(steps) - recipe.n_far
     held = held_dofs(section)
-    pieces: dict[float, Slice] = {}
-    for step in steps:
-        key = round(float(step), 12)
-        if key not in pieces:
-            whole = ring_slice(section, key, recipe.youngs_modulus, recipe.poisson_ratio)
-            pieces[key] = _without(whole, ~held)
-    near = [pieces[round(float(step), 12)] for step in steps[:n_near]]
-    # the arc over the top, from the last of the near planes to its mirror image
-    far = repeat(pieces[round(float(steps[-1]), 12)], 2 * recipe.n_far)
-    loads = [
-        load[:, ~held] for load in normal_loads(recipe, section, angles[: len(recipe.x) // 2 + 1])
-    ]
-    n_loaded, ny, n = len(loads), len(section.tread), int(np.count_nonzero(~held))
+    near, far = _slices(recipe, section, ~held)
+    n_loaded, ny = len(recipe.x) // 2 + 1, len(section.tread)
+    loads = [b[:, ~held] for b in normal_loads(recipe, section, recipe.angles[:n_loaded])]
     mirror = np.tile([1.0, 1.0, -1.0], len(section.nodes))[~held]
-    results = []
-    for symmetric in (True, False):
-        # displacements of the mirror image: the tangential ones change sign, or all others do
-        sign = mirror if symmetric else -mirror
-        top = 0.5 * (
-            far.aa + far.ab * sign + sign[:, None] * far.ab.T + sign[:, None] * far.bb * sign
-        )
-        moving = np.flatnonzero(sign > 0)  # in the plane of symmetry itself
-        diagonal = [near[0].aa[np.ix_(moving, moving)]]
-        diagonal += [near[i - 1].bb + near[i].aa for i in range(1, n_near)]
-        diagonal.append(near[-1].bb + top)
-        upper = [near[0].ab[moving]] + [piece.ab for piece in near[1:]]
-        # from the top down, so that the loaded planes are eliminated last
-        factor = BlockTridiagonal(diagonal[::-1], [ab.T for ab in upper[::-1]])
-        rhs = []
-        for i in range(n_near + 1):
-            b = np.zeros((n, n_loaded * ny))
-            if i < n_loaded:
-                # half of the load belongs to this symmetry
-                b[:, i * ny : (i + 1) * ny] = 0.5 * loads[i].T
-            rhs.append(b if i else b[moving])
-        solution = factor.solve(rhs[::-1])[::-1]
-        u = np.zeros((n_loaded, n, n_loaded * ny))
-        u[0, moving] = solution[0]
-        u[1:] = solution[1:n_loaded]
-        results.append(u)
-    even, odd = (np.concatenate([loads[i] @ u[i] for i in range(n_loaded)]) for u in results)
-    F = _unfold(even, odd, n_loaded, ny)
+    # displacements of the mirror image: the tangential ones change sign, or all others do
+    even, odd = (_half_ring(near, far, loads, sign) for sign in (mirror, -mirror))
+    rows = [
+        np.concatenate([load @ u for load, u in zip(loads, half, strict=True)])
+        for half in (even, odd)
+    ]
+    F = _unfold(rows[0], rows[1], n_loaded, ny)
     # plane x = 0: only the symmetric part moves in y and z; components there are
     # (radial outwards = down, y, tangential), see `ring`
-    bottom = np.zeros((3 * len(section.nodes), n_loaded * ny))
-    bottom[~held] = results[0][0]
-    bottom = bottom.reshape(len(section.nodes), 3, n_loaded, ny)
+    moved = np.zeros((3 * len(section.nodes), n_loaded * ny))
+    moved[~held] = even[0]
+    bottom = moved.reshape(len(section.nodes), 3, n_loaded, ny)
     response = np.stack([bottom[:, 1], -bottom[:, 0]], axis=1)
     response = np.concatenate([response[:, :, :0:-1], response], axis=2)
     return WheelFlexibility(
@@ -153,6 +120,58 @@ def elastic_wheel(recipe: WheelRecipe) -> WheelFlexibility:
         section.quads,
         response.reshape(len(section.nodes), 2, -1),
     )
+
+
+def _slices(
+    recipe: WheelRecipe, section: WheelSection, free: NDArray[np.bool_]
+) -> tuple[list[Slice], Slice]:
+    """Slices from the bottom up, and the arc over the top to the mirror image of the last plane."""
+    steps = [round(float(step), 12) for step in np.diff(recipe.angles)]
+    at = np.ix_(free, free)
+    pieces: dict[float, Slice] = {}
+    for step in set(steps):
+        whole = ring_slice(section, step, recipe.youngs_modulus, recipe.poisson_ratio)
+        pieces[step] = Slice(whole.aa[at], whole.ab[at], whole.bb[at])
+    n_near = len(steps) - recipe.n_far
+    far = repeat(pieces[steps[-1]], 2 * recipe.n_far)
+    return [pieces[step] for step in steps[:n_near]], far
+
+
+def _half_ring(near: list[Slice], far: Slice, loads: list[Array], sign: Array) -> list[Array]:
+    """Displacements of the loaded planes under the part of the loads with one mirror symmetry.
+
+    Parameters
+    ----------
+    near, far
+        As `_slices` gives them, on n dofs a plane.
+    loads : list of ndarray (ny, n)
+        Unit forces at the tread nodes of each loaded plane.
+    sign : ndarray (n,)
+        What the mirror image's displacements are multiplied by.
+
+    Returns
+    -------
+    list of ndarray (n, planes * ny)
+        For the loads of all planes.
+    """
+    n_loaded, ny, n = len(loads), len(loads[0]), len(sign)
+    # half of the arc's energy belongs to this half of the ring
+    top = 0.5 * (far.aa + far.ab * sign + sign[:, None] * far.ab.T + sign[:, None] * far.bb * sign)
+    moving = np.flatnonzero(sign > 0)  # in the plane of symmetry itself
+    diagonal = [near[0].aa[np.ix_(moving, moving)]]
+    diagonal += [a.bb + b.aa for a, b in pairwise(near)]
+    diagonal.append(near[-1].bb + top)
+    upper = [near[0].ab[moving]] + [piece.ab for piece in near[1:]]
+    # from the top down, so that the loaded planes are eliminated last
+    factor = BlockTridiagonal(diagonal[::-1], [ab.T for ab in upper[::-1]])
+    rhs = [np.zeros((len(block), n_loaded * ny)) for block in diagonal]
+    for i, load in enumerate(loads):
+        # half of the load belongs to this symmetry
+        rhs[i][:, i * ny : (i + 1) * ny] = 0.5 * (load.T if i else load.T[moving])
+    solution = factor.solve(rhs[::-1])[::-1]
+    bottom = np.zeros((n, n_loaded * ny))
+    bottom[moving] = solution[0]
+    return [bottom, *solution[1:n_loaded]]
 
 
 def held_dofs(section: WheelSection) -> NDArray[np.bool_]:
@@ -188,12 +207,6 @@ def _upright(recipe: WheelRecipe, section: WheelSection) -> Array:
     """Section nodes as (y, z), z up from the lowest point of the tape circle."""
     y, rho = section.nodes.T
     return np.stack([y, recipe.dimensions.radius - rho], axis=1)
-
-
-def _without(piece: Slice, free: NDArray[np.bool_]) -> Slice:
-    """Slice on the free dofs of its planes."""
-    at = np.ix_(free, free)
-    return Slice(piece.aa[at], piece.ab[at], piece.bb[at])
 
 
 def _unfold(even: Array, odd: Array, n: int, ny: int) -> Array:

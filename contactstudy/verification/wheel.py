@@ -15,7 +15,7 @@ from contactstudy.solids.wheel_modes import ModesRecipe, wheel_modes
 from contactstudy.solids.wheel_recipe import FAR_STEP_OF_MODES, WheelRecipe
 from contactstudy.solids.wheel_section import WheelSection
 from contactstudy.verification.annulus import Annulus
-from contactstudy.verification.check import CaseResult, Check, Table
+from contactstudy.verification.check import CaseResult, Cell, Check, Table
 
 Array = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -39,7 +39,7 @@ def disc() -> CaseResult:
     exact = {"torsion": annulus.torsion(), "breathing": annulus.breathing()}
     exact |= {f"bending, {n} waves": annulus.bending(n) for n in NEEDS_WAVES}
     meshes = [disc_frequencies(annulus, elements) for elements in (10, 20, 40)]
-    rows = []
+    rows: list[tuple[Cell, ...]] = []
     for name, reference in exact.items():
         errors = [mesh[name] / reference - 1 for mesh in meshes]
         rows.append((name, reference, *(100 * e for e in errors)))
