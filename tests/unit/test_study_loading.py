@@ -163,6 +163,15 @@ def test_a_path_in_a_file_is_relative_to_the_file(tmp_path):
             ["at least 4 elements of solid.mesh_size"],
         ),
         (
+            {
+                "solid": {"mesh_size": "4 mm", "coarse_mesh_size": "3 mm"},
+                "runs": {"s": {"solver": "surface"}},
+            },
+            ["solid.coarse_mesh_size", "at least solid.mesh_size"],
+        ),
+        ({"solid": {"contact_points": "corners"}}, ["solid.contact_points", "gauss", "nodes"]),
+        ({"solid": {"penetration_tolerance": "1 nm"}}, ["penetration_tolerance", "augmented"]),
+        (
             {"track": {"rail": "given"}, "runs": {"s": {"solver": "surface"}}},
             ["needs a rail with a profile"],
         ),
@@ -240,6 +249,15 @@ def test_what_is_no_toml(tmp_path):
 def test_bad_overrides(text, message):
     with pytest.raises(InputError, match=message):
         load_study("paper_irregularity", [text])
+
+
+def test_penetration_tolerance_is_that_of_the_augmented_lagrangian():
+    runs = {"s": {"solver": "surface"}}
+    study = parse_study("s", {"runs": runs})
+    assert study.solid.tolerance is None
+    assert "penetration_tolerance" not in study.config()["solid"]
+    study = parse_study("s", {"runs": runs, "solid": {"enforcement": "augmented"}})
+    assert study.solid.tolerance == study.config()["solid"]["penetration_tolerance"] == 1e-9
 
 
 def test_config_and_units_are_plain_and_complete():
