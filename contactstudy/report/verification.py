@@ -9,7 +9,7 @@ from typing import Any
 from contactstudy.figures.drawing import exact
 from contactstudy.figures.style import drawing, save
 from contactstudy.figures.verification import draw
-from contactstudy.report.quantity import percent, rounded
+from contactstudy.report.quantity import percent, pretty_unit, rounded
 from contactstudy.report.tables import Block, table, text
 from contactstudy.report.typesetting import typeset
 from contactstudy.study.files import writing
@@ -132,7 +132,7 @@ def _checks(checks: Sequence[Check]) -> Block:
     rows = []
     for c in checks:
         row = [c.quantity, rounded(c.computed, 5), _LIMITS[c.sense] + rounded(c.reference, 5)]
-        row += [c.unit or "–", percent(c.error, 2), _band(c), _WORDS[c.passed]]
+        row += [_unit(c.unit), _difference(c.error), _band(c), _WORDS[c.passed]]
         rows.append(row if len(sources) == 1 else [*row, str(sources.index(c.source) + 1)])
     if len(sources) == 1:
         note = f"Reference: {sources[0]}."
@@ -142,6 +142,15 @@ def _checks(checks: Sequence[Check]) -> Block:
     made = table(columns, rows, "Reference beside computed.", 1, note)
     made["columns"][0]["wide"] = True
     return made
+
+
+def _unit(unit: str) -> str:
+    return pretty_unit(unit.replace("um", "µm")) or "–"
+
+
+def _difference(error: float) -> str:
+    """In per cent; what is below 1e-5 is rounding, whose digits mean nothing."""
+    return "below 0.001" if 0.0 < abs(error) < 1e-5 else percent(error, 2)
 
 
 def _band(check: Check) -> str:
