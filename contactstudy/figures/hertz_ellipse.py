@@ -35,8 +35,11 @@ class HertzPatch:
 def hertz_patch(results: StudyResults, force: float) -> HertzPatch | None:
     """Patch of a cylindrical wheel on the crown of the study's rail under `force` [N].
 
-    None where the study has no rail profile or the rail is not touched.
+    None where the study has no rail profile, where the rail is not touched, and where the patch
+    may lie anywhere on the profiles.
     """
+    if results.config.get("solid", {}).get("section") == "whole":
+        return None
     track = results.config.get("track", {})
     radius = results.config.get("vehicle", {}).get("wheel_radius")
     if track.get("rail", "given") == "given" or radius is None or force <= 0.0:

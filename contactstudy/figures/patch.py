@@ -104,7 +104,9 @@ def _map(patch: Patch, hertz: HertzPatch | None) -> Figure:
     figure = new_figure(3.0)
     left, right = figure.subplots(1, 2, width_ratios=[1.35, 1.0])
     x, y, p = patch.x * 1e3, patch.y * 1e3, patch.pressure * 1e-6
-    half = 1.35 * max(np.abs(x[p > 0]).max(), np.abs(y[p > 0]).max())
+    # a patch off the crown is drawn about its centre, a centred one about the wheel's
+    middle = 0.5 * (y[p > 0].min() + y[p > 0].max())
+    half = 1.35 * max(np.abs(x[p > 0]).max(), np.abs(y[p > 0] - middle).max())
     if hertz is not None:
         half = max(half, 1.25e3 * max(hertz.along, hertz.across))
     image = _field(left, x, y, p)
@@ -114,13 +116,13 @@ def _map(patch: Patch, hertz: HertzPatch | None) -> Figure:
         proxy = Line2D([], [], color=VERMILION, lw=1.4, ls="--", label="Hertz's ellipse")
         left.legend(handles=[proxy], loc="upper right")
     left.set_xlim(-half, half)
-    left.set_ylim(-half, half)
+    left.set_ylim(middle - half, middle + half)
     left.set_aspect("equal")
     left.grid(False)
     left.set_xlabel("Along the rail (mm)")
     left.set_ylabel("Across the rail (mm)")
     figure.colorbar(image, ax=left, label="Pressure (MPa)", shrink=0.9)
-    _cuts(right, x, y, p, hertz, half)
+    _cuts(right, x, y - y[np.argmax(p)] if hertz is None else y, p, hertz, half)
     return figure
 
 

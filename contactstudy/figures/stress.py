@@ -92,7 +92,7 @@ def _draw(below: Below) -> Figure:
     for row, (name, (title, invariant)) in zip(axes, _INVARIANTS.items(), strict=True):
         value, x, y, depth = below.maxima[name]
         top = value * 1e-6
-        levels = MaxNLocator(10, steps=[1, 2, 2.5, 5, 10]).tick_values(0.0, top)
+        levels = np.asarray(MaxNLocator(10, steps=[1, 2, 2.5, 5, 10]).tick_values(0.0, top))
         for ax, along in zip(row, (True, False), strict=True):
             s, z, field = _plane(below, along, (x0, y0), invariant)
             image = _contours(ax, s, z, field, levels)

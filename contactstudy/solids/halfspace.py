@@ -270,7 +270,7 @@ class HalfSpaceBlock:
         ix, iy = self._loaded(loaded)
         count = len(ix) * len(iy)
         u = self.displacement(loaded, np.eye(count))
-        F = u[np.ix_(ix, iy, [0], [2])].reshape(count, count)
+        F = u[ix][:, iy, 0, 2].reshape(count, count)
         x, y, _ = self._lines
         return HalfSpacePatch(x[ix], y[iy], 0.5 * (F + F.T), self._symmetric)
 

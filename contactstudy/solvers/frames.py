@@ -53,9 +53,15 @@ class Frames:
         )
         at = self._coupling.positions[self._steps_kept]
         return data.assign_coords(
-            frame_time=("frame", np.array(self._times), {"units": "s", "long_name": "time"}),
-            frame_position=("frame", at, {"units": "m", "long_name": "position of the wheel"}),
-            **node_coordinates(self._coupling.points),
+            {
+                "frame_time": ("frame", np.array(self._times), {"units": "s", "long_name": "time"}),
+                "frame_position": (
+                    "frame",
+                    at,
+                    {"units": "m", "long_name": "position of the wheel"},
+                ),
+                **node_coordinates(self._coupling.points),
+            }
         )
 
 

@@ -106,9 +106,8 @@ class Instants:
         def coordinate(values: Array, unit: str, text: str, dim: str) -> tuple:
             return (dim, values, {"units": unit, "long_name": text})
 
+        data = data.assign(fields | stresses)
         data = data.assign(
-            **fields,
-            **stresses,
             section_wheel_nodes=(("wheel_node", "axis"), wheel.section_nodes, metre),
             section_wheel_quads=(("wheel_quad", "corner"), wheel.section_quads),
             section_wheel_displacement=(("wheel_node", "axis"), moved, metre),
@@ -120,10 +119,10 @@ class Instants:
                 metre | {"section_position": first.plane},
             ),
         )
+        data = data.assign_coords(node_coordinates(points))
         return data.assign_coords(
             instant_time=coordinate(np.array([k.time for k in self._kept]), "s", "time", "instant"),
             instant_position=coordinate(
                 np.array([k.position for k in self._kept]), "m", "position of the wheel", "instant"
             ),
-            **node_coordinates(points),
         )

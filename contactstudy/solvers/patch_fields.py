@@ -24,7 +24,9 @@ def node_coordinates(points: ContactPoints) -> dict[str, xr.Variable]:
     x, y = np.meshgrid(points.wheel_x, points.wheel_y, indexing="ij")
     tread = points.wheel_rows.matrix(x.size)
     halves = ", of both halves" if points.symmetric else ""
-    across = _variable(("point",), y.ravel(), "m", "position across the rail")
+    along_tread = "position across, by arc length on the wheel's tread from the tape circle"
+    text = "position across the rail" if points.symmetric else along_tread
+    across = _variable(("point",), y.ravel(), "m", text)
     across.attrs["symmetric"] = int(points.symmetric)
     return {
         "point_x": _variable(("point",), x.ravel(), "m", "position relative to the wheel"),
