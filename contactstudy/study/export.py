@@ -86,8 +86,10 @@ def export_press(
     name = _run(study, run, problems)
     if study.track.rail == "given":
         problems.append('track.rail = "given": a rail of given values has no section to mesh')
-    if study.solid.wheel == "rigid":
-        problems.append('solid.wheel = "rigid": only an elastic wheel can be exported')
+    if study.solid.section == "whole":
+        problems.append('solid.section = "whole": only a half section can be exported')
+    if name and study.wheel(name) == "rigid":
+        problems.append(f'wheel = "rigid" in the run {name}: only an elastic wheel can be exported')
     newtons = given("--load", load, "N", float(build.vehicle(study).static_loads[0]))
     length = given("--rail-length", rail_length, "m", CELLS * study.solid.cell_length)
     if out.is_dir():
@@ -137,15 +139,17 @@ def _hertz(study: Study, load: float) -> HertzContact:
     return hertz_contact(load, contact_modulus(E, nu), study.vehicle.wheel_radius, crown)
 
 
-def _run(study: Study, wanted: str | None, problems: list[str]) -> str:
+def _run(study: Study, wanted: str | None, problems: list[str]) -> str | None:
+    """Name of the run, None with a complaint."""
     surface = [name for name, run in study.runs.items() if isinstance(run, SurfaceRun)]
+    if wanted in surface:
+        return wanted
     if not surface:
         problems.append(f'study {study.name}: has no run with solver = "surface" to export')
     elif wanted is None:
         return study.reference if study.reference in surface else surface[0]
-    elif wanted not in surface:
+    else:
         hint = did_you_mean(wanted, surface)
-        problems.append(
-            complaint("--run", wanted, f"no run of surface contact{hint}: {', '.join(surface)}")
-        )
-    return wanted or ""
+        allowed = f"must be a run of surface contact{hint}: {', '.join(surface)}"
+        problems.append(complaint("--run", wanted, allowed))
+    return None

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from contactstudy.contact.hertz import contact_modulus, hertz_contact
+from contactstudy.contact.hertz import HertzContact, contact_modulus, hertz_contact
 from contactstudy.export.calculix import calculix_input
 from contactstudy.export.press_mesh import PressMesh, press_mesh
 from contactstudy.export.run_calculix import CalculixRun, run_calculix
@@ -35,12 +35,15 @@ A wheel is pressed on the middle of a rail {length:g} m long, clamped at both en
 incompatible-mode bricks, contact face to face with the same penalty, load on the hub). The \
 approach is the hub's displacement against the clamped ends; the area that of the integration \
 points in contact; pressures are means over the tread's faces, which no extrapolation to nodes \
-distorts.
+distorts; the difference of the pressures is the root mean square over the faces, relative to that \
+of CalculiX's.
 
 "Flat faces": {model}, its gap and displacements linear between the nodes as CalculiX has them; \
 what differs is elements, condensation, contact algorithm and integration points. "Smooth \
 profiles": the press as the program runs it, 2 x 2 Gauss points a face, the gap between the smooth \
-profiles. The sagitta of the faces, {sagitta:.2g} um, is what the two differ by."""
+profiles. The sagitta of the faces, {sagitta:.2g} um, is what the two differ by: with so few \
+faces over a patch it moves single points into contact and single pressures by a tenth, so these \
+are reported beside Hertz and not judged; how they converge is the subject of other cases."""
 
 
 @dataclass(frozen=True)
@@ -68,31 +71,31 @@ class _Model:
     def calculix(self, mesh: PressMesh) -> CalculixRun:
         """Let CalculiX solve it."""
         E, nu = self.cell.youngs_modulus, self.cell.poisson_ratio
-        crown = rail_profile(self.cell.profile).crown_radius
-        start = hertz_contact(LOAD, contact_modulus(E, nu), self.wheel.dimensions.radius, crown)
-        text = calculix_input(mesh, LOAD, PENALTY, E, nu, start.approach)
+        text = calculix_input(mesh, LOAD, PENALTY, E, nu, self.hertz.approach)
         return run_calculix(text, PENALTY)
+
+    @property
+    def hertz(self) -> HertzContact:
+        """The same contact in closed form."""
+        modulus = contact_modulus(self.cell.youngs_modulus, self.cell.poisson_ratio)
+        crown = rail_profile(self.cell.profile).crown_radius
+        return hertz_contact(LOAD, modulus, self.wheel.dimensions.radius, crown)
 
 
 def press_on_default_mesh() -> CaseResult:
     """Condensed bodies of the default mesh, 2 mm, on 0.4 m of rail; minutes of CalculiX."""
     model = _Model(CellRecipe(), WheelRecipe(), 0.4, reduced=True)
-    return _case("calculix", model, (2e-3, 0.02, 0.01), (0.01, None, None))
+    return _case("calculix", model, 0.01)
 
 
 def press_on_coarse_mesh() -> CaseResult:
     """4 mm on 0.08 m of rail with every node kept: quick."""
     wheel = WheelRecipe(size=0.004, far_step=np.pi / 6)
     model = _Model(CellRecipe(size=0.004, length=0.08), wheel, 0.08, reduced=False)
-    return _case("calculix_coarse", model, (2e-3, 0.02, 0.01), (None, None, None))
+    return _case("calculix_coarse", model, None)
 
 
-def _case(
-    name: str,
-    model: _Model,
-    flat_bands: tuple[float | None, ...],
-    smooth_bands: tuple[float | None, ...],
-) -> CaseResult:
+def _case(name: str, model: _Model, smooth_band: float | None) -> CaseResult:
     mesh, track = model.mesh, model.track
     wheel = cached(elastic_wheel, WheelFlexibility, model.wheel)
     run, middle = model.calculix(mesh), 0.5 * model.length
@@ -100,27 +103,36 @@ def _case(
     theirs = FacetPress(run.press.approach, run.press.area, _on_grid(mesh, run, wheel))
     smooth = _smooth(track, wheel, middle)
     source = f"CalculiX {run.version}"
-    checks = [
-        Check(f"{what}, {how}", scale * ours, scale * reference, unit, source, band)
-        for how, one, bands in (
-            ("flat faces", flat, flat_bands),
-            ("smooth profiles", smooth, smooth_bands),
-        )
-        for what, ours, reference, scale, unit, band in (
-            ("approach", one.approach, theirs.approach, 1e6, "um", bands[0]),
-            ("contact area", one.area, theirs.area, 1e6, "mm^2", bands[1]),
-            (
-                "peak mean pressure of a face",
-                float(one.face_pressure.max()),
-                float(theirs.face_pressure.max()),
-                1e-6,
-                "MPa",
-                bands[2],
-            ),
-        )
-    ]
-    checks.append(
-        Check("vertical contact force", 1e-3 * LOAD, 1e-3 * run.press.force, "kN", source, 1e-3)
+    apart = np.linalg.norm(flat.face_pressure - theirs.face_pressure)
+    checks = (
+        Check("vertical contact force", 1e-3 * LOAD, 1e-3 * run.press.force, "kN", source, 1e-3),
+        *_compared("flat faces", flat, theirs, source, (1e-3, 0.02, 0.01)),
+        Check(
+            "difference of the pressures, flat faces",
+            float(apart / np.linalg.norm(theirs.face_pressure)),
+            0.03,
+            "",
+            source,
+            0.0,
+            sense="at_most",
+        ),
+        *_compared("smooth profiles", smooth, theirs, source, (smooth_band, None, None)),
+        Check(
+            "peak mean pressure of a face, smooth profiles, against Hertz's p0",
+            1e-6 * float(smooth.face_pressure.max()),
+            1e-6 * model.hertz.peak_pressure,
+            "MPa",
+            "Hertz",
+            None,
+        ),
+        Check(
+            "area, smooth profiles, against Hertz's",
+            1e6 * smooth.area,
+            1e6 * model.hertz.area,
+            "mm^2",
+            "Hertz",
+            None,
+        ),
     )
     h = model.cell.size
     crown = rail_profile(model.cell.profile).crown_radius
@@ -135,8 +147,32 @@ def _case(
             model="the condensed bodies" if model.reduced else "the rail with every node kept",
             sagitta=1e6 * h**2 / 8 * (1 / model.wheel.dimensions.radius + 1 / crown),
         ),
-        checks=tuple(checks),
+        checks=checks,
         tables=(_pressures(wheel, flat, smooth, theirs, source),),
+    )
+
+
+def _compared(
+    how: str,
+    ours: FacetPress,
+    theirs: FacetPress,
+    source: str,
+    bands: tuple[float | None, float | None, float | None],
+) -> tuple[Check, Check, Check]:
+    peak, reference = float(ours.face_pressure.max()), float(theirs.face_pressure.max())
+    return (
+        Check(
+            f"approach, {how}", 1e6 * ours.approach, 1e6 * theirs.approach, "um", source, bands[0]
+        ),
+        Check(f"contact area, {how}", 1e6 * ours.area, 1e6 * theirs.area, "mm^2", source, bands[1]),
+        Check(
+            f"peak mean pressure of a face, {how}",
+            1e-6 * peak,
+            1e-6 * reference,
+            "MPa",
+            source,
+            bands[2],
+        ),
     )
 
 
@@ -171,9 +207,9 @@ def _pressures(
     """Faces beside the plane of symmetry, outwards from the middle."""
     first = len(wheel.x) // 2
     centre = 0.5 * (wheel.x[1:] + wheel.x[:-1])
+    columns = (theirs, flat, smooth)
     rows = tuple(
         (1e3 * float(centre[i]), *(1e-6 * float(p.face_pressure[i, 0]) for p in columns))
-        for columns in ((theirs, flat, smooth),)
         for i in range(first, len(centre))
     )
     header = ("x of the face (mm)", f"{source} (MPa)", "flat faces (MPa)", "smooth (MPa)")

@@ -220,3 +220,17 @@ def test_load_that_the_fine_tread_cannot_carry(tmp_path, capsys):
     arguments = ["export", "point_vs_surface", "--out", str(tmp_path / "a.inp")]
     assert cli.main([*arguments, "--load", "1 MN"]) == 2
     assert "contact_half_width" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("override", "said"),
+    [("solid.wheel=rigid", "elastic wheel"), ("solid.section=whole", "only a half section")],
+)
+def test_models_that_cannot_be_exported(tmp_path, capsys, override, said):
+    out = tmp_path / "a.inp"
+    status = cli.main(
+        ["export", "point_vs_surface", "--out", str(out), "--load", "8 kg", "--set", override]
+    )
+    error = capsys.readouterr().err
+    assert status == 2 and said in error and "--load" in error
+    assert not out.exists()
