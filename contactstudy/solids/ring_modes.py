@@ -53,7 +53,8 @@ class RingFamily:
         c, s = np.cos(self.waves * theta), np.sin(self.waves * theta)
         turning = _tangential(len(self.vectors))
         tangential, others = (s, c) if symmetric else (-c, s)
-        return np.asarray(np.where(turning, tangential, others)[:, None] * self.vectors)
+        factor = np.asarray(np.where(turning, tangential, others), dtype=float)
+        return np.asarray(factor[:, None] * self.vectors)
 
 
 def ring_families(
