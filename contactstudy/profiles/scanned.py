@@ -263,7 +263,7 @@ def _regressed(fit: CloudFit, columns: Array) -> tuple[Array, Array]:
     group = np.floor(fit.s / _STRETCH).astype(np.int64)
     both = _within(group, np.column_stack([columns, fit.distance]))
     A, r = both[:, :-1], both[:, -1]
-    inverse = np.linalg.pinv(A.T @ A, rcond=1e-13, hermitian=True)
+    inverse: Array = np.asarray(np.linalg.pinv(A.T @ A, rcond=1e-13, hermitian=True), dtype=float)
     return inverse @ (A.T @ r), inverse
 
 

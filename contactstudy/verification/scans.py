@@ -18,6 +18,7 @@ from contactstudy.contact.pose import PlacedWheel, Pose
 from contactstudy.contact.smooth_touch import smooth_touch
 from contactstudy.profiles.curve import ProfileCurve, rail_curve, wheel_curve
 from contactstudy.scans import SurfaceScan, meeting, scanned_surface
+from contactstudy.scans.reading import Body
 from contactstudy.verification.check import CaseResult, Check, Plot, Table, curve
 
 Array = NDArray[np.float64]
@@ -92,7 +93,7 @@ def scanned_profiles() -> CaseResult:
     """Scans of 60E1 and S1002, in STL and so in single precision, against the exact profiles."""
     exact = {"rail": rail_curve("60E1"), "wheel": wheel_curve("S1002")}
     scans = _scans(exact)
-    checks, rows, figures = [], [], []
+    checks, figures = [], []
     for body, scan in scans.items():
         shape, figure = _shape(scan, exact[body])
         checks += shape
@@ -173,7 +174,7 @@ def _scans(exact: dict[str, ProfileCurve]) -> dict[str, SurfaceScan]:
             mesh.apply_scale(1e3)
             path = Path(folder) / f"{profile.name}.stl"
             mesh.export(path)
-            kind = "rail" if profile.upper else "wheel"
+            kind: Body = "rail" if profile.upper else "wheel"
             scans[body] = scanned_surface(path, "mm", kind, origin=at[1])
     return scans
 

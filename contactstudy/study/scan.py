@@ -1,0 +1,160 @@
+"""The table ``[scan]``: scanned surfaces in place of the drawn ones, for the gap."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from pathlib import Path
+from typing import Any, Literal
+
+from contactstudy.contact.pose import Pose
+from contactstudy.exceptions import InputError
+from contactstudy.profiles.curve import ProfileCurve
+from contactstudy.scans import Meeting, SurfaceScan, meeting, scanned_surface
+from contactstudy.study import quantities as q
+from contactstudy.study.messages import complaint
+from contactstudy.study.section import Section
+
+PATHS = ("rail", "wheel")
+"""Keys that hold a file's name."""
+Unit = Literal["", "mm", "m", "cm", "um", "in"]
+
+
+class ScanTable(Section):
+    """``[scan]``: STL, PLY or OBJ files, X along the rail, Y to the field side, Z up.
+
+    The gap is taken from the smooth surfaces that are fitted to the scans; the bodies that are
+    meshed below them stay those of the drawn profiles. ``rail_middle`` and ``wheel_tape`` are Y in
+    the scan of the rail's middle plane, half way along, and of the wheel's tape circle, at its
+    lowest point.
+    """
+
+    rail: str = ""
+    rail_unit: Unit = ""
+    rail_middle: q.Position = 0.0
+    wheel: str = ""
+    wheel_unit: Unit = ""
+    wheel_tape: q.Position = 0.0
+    smoothing: q.Length = 1e-3
+    residual_limit: q.Length = 1e-4
+
+    @property
+    def used(self) -> bool:
+        """Whether there is a scan at all."""
+        return bool(self.rail or self.wheel)
+
+    def problems(self) -> list[str]:
+        """Keys against each other: a file needs its unit, and the other keys a file."""
+        found = []
+        for body, origin in (("rail", "rail_middle"), ("wheel", "wheel_tape")):
+            file, unit = getattr(self, body), getattr(self, f"{body}_unit")
+            if file and not unit:
+                allowed = 'is missing; state the length unit of the file, e.g. "mm"'
+                found.append(f"scan.{body}_unit: {allowed}")
+            found += [
+                complaint(f"scan.{key}", getattr(self, key), f"applies only with scan.{body}")
+                for key in (f"{body}_unit", origin)
+                if not file and key in self.model_fields_set and getattr(self, key)
+            ]
+        if not self.used:
+            found += [
+                complaint(f"scan.{key}", getattr(self, key), "applies only with a scan")
+                for key in ("smoothing", "residual_limit")
+                if key in self.model_fields_set
+            ]
+        return found
+
+    def surfaces(self) -> tuple[SurfaceScan | None, SurfaceScan | None]:
+        """The scans of rail and wheel that there are.
+
+        Raises
+        ------
+        InputError
+            Listing everything that is wrong with either file.
+        """
+        found: list[SurfaceScan | None] = []
+        problems: list[str] = []
+        for body, origin in (("rail", self.rail_middle), ("wheel", self.wheel_tape)):
+            file, unit = getattr(self, body), getattr(self, f"{body}_unit")
+            try:
+                path = Path(file)
+                changed = path.stat().st_mtime_ns if file and path.is_file() else 0
+                settings = (origin, self.smoothing, self.residual_limit)
+                found.append(_read(file, unit, body, changed, *settings) if file else None)
+            except InputError as error:
+                problems += [f"scan.{body}: {problem}" for problem in error.problems]
+        if problems:
+            raise InputError(problems)
+        return found[0], found[1]
+
+    def curves(self, rail: ProfileCurve, wheel: ProfileCurve) -> tuple[ProfileCurve, ProfileCurve]:
+        """Profiles of rail and wheel, the fitted ones where there are scans."""
+        if not self.used:
+            return rail, wheel
+        scans = self.surfaces()
+        return (scans[0].curve if scans[0] else rail), (scans[1].curve if scans[1] else wheel)
+
+    def touch(
+        self,
+        rail: ProfileCurve,
+        wheel: ProfileCurve,
+        radius: float,
+        pose: Pose,
+        half_length: float,
+        half_width: float,
+    ) -> Meeting:
+        """First touch of the scans, and whether their facets cover the zone of contact.
+
+        Parameters
+        ----------
+        rail, wheel : ProfileCurve
+            The drawn profiles, for a body that is not scanned.
+        radius, pose, half_length, half_width
+            As in `contactstudy.scans.meeting`.
+
+        Raises
+        ------
+        InputError
+            If they never touch, have holes there, or the wheel's radius is another one.
+        """
+        scans = self.surfaces()
+        problems = []
+        if scans[1] is not None:
+            fit = scans[1].fit
+            # a hundredth of the radius, or what a short scan leaves open
+            if abs(fit.radius - radius) > max(0.01 * radius, 4.0 * fit.radius_error):
+                problems.append(
+                    f"vehicle.wheel_radius = {radius:g} m: the scan {scans[1].name} has "
+                    f"{fit.radius:.4g} m at its tape circle"
+                )
+        if problems:
+            raise InputError(problems)
+        try:
+            return meeting(
+                scans[0] or rail, scans[1] or wheel, radius, pose, half_length, half_width
+            )
+        except InputError as error:
+            raise InputError([f"scan: {problem}" for problem in error.problems]) from error
+
+    def fitted(self) -> dict[str, Any]:
+        """What was fitted, as plain data in SI for the results."""
+        values: dict[str, Any] = {}
+        for body, scan in zip(PATHS, self.surfaces(), strict=True):
+            if scan is not None:
+                values[f"{body}_residual_rms"] = scan.fit.rms
+                values[f"{body}_residual_largest"] = scan.fit.largest
+                values[f"{body}_points"] = scan.fit.points
+        return values
+
+
+@lru_cache(maxsize=8)
+def _read(
+    file: str,
+    unit: str,
+    body: Literal["rail", "wheel"],
+    changed: int,
+    origin: float,
+    smoothing: float,
+    limit: float,
+) -> SurfaceScan:
+    # a file that has changed is read again
+    return scanned_surface(file, unit, body, origin, smoothing, limit)
