@@ -10,6 +10,7 @@ from contactstudy.figures.passing_components import is_smooth
 from contactstudy.report.abstract import GRADES, abstract
 from contactstudy.report.parameters import parameter_tables
 from contactstudy.report.quantity import quantity
+from contactstudy.report.stress_table import stress_tables
 from contactstudy.report.tables import (
     Block,
     cited,
@@ -119,6 +120,8 @@ def _parts(results: StudyResults, prefix: str) -> list[Content]:
     parts = []
     for title, names in _PARTS:
         blocks = [_figure(d, prefix) for d in made if d.name.startswith(names)]
+        if title == "Contact patch":
+            blocks += stress_tables(results)
         if blocks:
             parts.append({"title": title, "blocks": blocks})
     return parts

@@ -31,6 +31,8 @@ _NAMES = {
     "layer": "layer below",
     "static_load": "static load",
     "pressure_at": "pressure fields at",
+    "animation_frames": "frames of the animation",
+    "animation_span": "animation between",
 }
 
 

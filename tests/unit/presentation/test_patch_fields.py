@@ -61,7 +61,9 @@ def test_figures_of_the_patch(full):
     area = float((run["point_area"] * run["contact_status"])[:, k].sum()) * 1e6
     assert f"{area:.1f} mm²" in made["patch_status"].caption
     parts = {p["title"]: p for p in content(full, False)["results"]}
-    files = [b["file"] for b in parts["Contact patch"]["blocks"]]
+    files = [b["file"] for b in parts["Contact patch"]["blocks"] if "file" in b]
+    (shear_row,) = [b["rows"] for b in parts["Contact patch"]["blocks"] if b["kind"] == "table"]
+    assert len(shear_row) == len(shear) and shear_row[k][6] == f"{shear[k] * 1e-6:.0f}"
     assert files[:3] == ["patch_pressure.pdf", "patch_status.pdf", "stress_below.pdf"]
 
 
