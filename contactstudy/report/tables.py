@@ -48,7 +48,9 @@ def describe(results: StudyResults, name: str) -> tuple[str, str]:
     if run.get("solver") == "surface":
         attrs = results.runs[name].attrs
         where = " at nodes" if attrs.get("quadrature") == "nodes" else ""
-        return "solid", f"surface, {attrs.get('law', 'penalty')}{where}"
+        model = attrs.get("wheel", "quasi-static")
+        wheel = "" if model == "quasi-static" else f", {model} wheel"
+        return "solid", f"surface, {attrs.get('law', 'penalty')}{where}{wheel}"
     rails = {"euler": "Euler beam", "timoshenko": "Timoshenko beam", "solid": "solid"}
     rail = rails.get(str(run.get("rail")), str(run.get("rail", "–")))
     if run.get("rail") != "solid" and "elements_per_bay" in run:
