@@ -89,7 +89,7 @@ def _kept(study: PositionsStudy, side: Side, k: int, out_dir: Path) -> list[dict
     settings = {
         key: v for key, v in study.config().items() if key not in ("lateral", "yaw", "roll")
     }
-    profiles = {c.name: _curve_digest(c) for c in (study.wheelset.wheel, study.wheelset.rail)}
+    profiles = [_curve_digest(c) for c in (study.wheelset.wheel, study.wheelset.rail)]
     inputs = [side, study.positions[k], settings, profiles, store.code_digest(), versions()]
     path = out_dir / store.STORE / f"{side}_{k + 1:03d}-{store.digest(inputs)}.json"
     try:

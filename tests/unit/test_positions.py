@@ -12,6 +12,7 @@ import xarray as xr
 from contactstudy import cli
 from contactstudy.contact.hertz import contact_modulus, hertz_contact
 from contactstudy.exceptions import InputError, NumericalError
+from contactstudy.profiles.curve import wheel_curve
 from contactstudy.study import positions_run
 from contactstudy.study.positions import Series, load_positions
 from contactstudy.study.positions_run import run_positions
@@ -118,6 +119,25 @@ def test_positions_are_kept(study, tmp_path, monkeypatch):
     with (out / "patches.csv").open() as stream:
         rows = list(csv.DictReader(stream))
     np.testing.assert_allclose([float(r["approach [m]"]) for r in rows], read.approach)
+
+
+def test_a_worn_profile_from_a_file_beside_the_study(tmp_path):
+    curve = wheel_curve("S1002")
+    points = 1e3 * curve.point(np.arange(curve.s_range[0] + 1e-3, curve.s_range[1] - 1e-3, 5e-4))
+    rows = "\n".join(f"{y:.6f},{z:.6f}" for y, z in points)
+    (tmp_path / "worn.csv").write_text(f"y [mm],z [mm]\n{rows}\n")
+    path, found = tmp_path / "worn.toml", []
+    for profile in ("S1002", "worn.csv"):
+        path.write_text(
+            f'[positions]\nroll = 0\nwheels = ["left"]\nwheel_profile = "{profile}"\ncell = 5e-4\n'
+        )
+        found.append(run_positions(load_positions(path), tmp_path / "out"))
+    drawn, worn = found
+    print(
+        f"approach: drawn {float(drawn.approach[0]):.6e}, its points {float(worn.approach[0]):.6e}"
+    )
+    assert float(worn.approach[0]) == pytest.approx(float(drawn.approach[0]), rel=5e-3)
+    assert '"worn.csv"' in worn.attrs["config"]  # and no folder of this machine
 
 
 def test_an_impossible_position_says_where(tmp_path):
