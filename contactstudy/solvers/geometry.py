@@ -13,6 +13,7 @@ from contactstudy.contact.pose import PlacedWheel, Pose
 from contactstudy.contact.quadrature import Quadrature
 from contactstudy.contact.search import CandidateList, FacetSearch, grid_surface
 from contactstudy.contact.smooth_touch import SmoothTouch, smooth_touch
+from contactstudy.exceptions import InputError
 from contactstudy.profiles.curve import ProfileCurve, rail_curve, wheel_curve
 from contactstudy.profiles.rail import rail_profile
 from contactstudy.profiles.wheel import wheel_profile
@@ -55,6 +56,48 @@ class Geometry:
     def touch(self) -> SmoothTouch:
         """First touch of the smooth surfaces when the wheel is lowered."""
         return smooth_touch(PlacedWheel(self.wheel, self.radius, self.pose), self.rail)
+
+    def relative_radii(self) -> tuple[float, float]:
+        """Relative radii of curvature at the first touch along and across the rail [m].
+
+        Along, a circle of radius r whose plane is tilted by the contact angle a has the normal
+        curvature ``cos(a)/r`` (Meusnier).
+
+        Raises
+        ------
+        InputError
+            If the surfaces are conformal across the rail there, so that Hertz does not apply.
+        """
+        touch = self.touch
+        radius = self.radius - float(self.wheel.point(touch.wheel_s)[1])
+        across = float(self.rail.curvature(touch.arc) + self.wheel.curvature(touch.wheel_s))
+        if not across > 0:
+            raise InputError(
+                f"Hertz contact of {self.wheel.name} on {self.rail.name}: the relative curvature "
+                f"across the rail is {across:.4g} 1/m at the first touch; must be positive"
+            )
+        return radius / float(np.cos(touch.angle)), 1.0 / across
+
+    def overlap(self, approach: float) -> tuple[Array, Array]:
+        """Where the undeformed bodies overlap, the wheel standing lower than at first touch.
+
+        Parameters
+        ----------
+        approach : float
+            Vertical, in m, positive.
+
+        Returns
+        -------
+        s, arc : ndarray (n,)
+            Arc lengths on wheel and rail in m, at steps of 0.1 mm.
+        """
+        placed = PlacedWheel(self.wheel, self.radius, self.pose)
+        first, last = self.wheel.s_range
+        s = np.linspace(first, last, int((last - first) / 0.1e-3) + 2)
+        points, _ = placed.surface(placed.locus(s), s)
+        down = (self.touch.travel + approach) * self.pose.vertical
+        arc, distance = self.rail.project(points[:, 1:] - down)
+        return s[distance < 0], arc[distance < 0]
 
 
 def wheel_points(

@@ -17,6 +17,7 @@ from contactstudy.study.tables import (
     TrackTable,
     VehicleTable,
 )
+from contactstudy.study.wheelset import WheelsetTable, problems_of
 
 _SLACK = 1e-9  # relative, for lengths that were given in decimal
 
@@ -56,6 +57,9 @@ def combined(sections: Mapping[str, Any], runs: Mapping[str, RunTable]) -> list[
     vehicle: VehicleTable | None = sections.get("vehicle")
     if solid is not None and vehicle is not None and (meshed or pressed):
         problems += _wheel(solid, vehicle)
+    wheelset: WheelsetTable | None = sections.get("wheelset")
+    if solid is not None and wheelset is not None and (meshed or pressed):
+        problems += _wheelset(solid, wheelset, sections)
     if solid is not None and journey is not None and meshed and journey.start < journey.end:
         problems += _solid_on_journey(solid, journey)
     return problems
@@ -162,6 +166,23 @@ def _wheel(solid: SolidTable, vehicle: VehicleTable) -> list[str]:
         allowed = f"must be that of the wheel's section file, {dimensions.radius:g} m"
         return [complaint("vehicle.wheel_radius", radius, allowed)]
     return []
+
+
+def _wheelset(solid: SolidTable, wheelset: WheelsetTable, sections: Mapping[str, Any]) -> list[str]:
+    if solid.section == "half":
+        return [
+            f'wheelset.{key}: applies only with solid.section = "whole" (here "half")'
+            for key in sorted(wheelset.model_fields_set)
+        ]
+    problems = []
+    if solid.interface_modes < 6:
+        allowed = "must be at least 6, the rigid motions of a whole section"
+        problems.append(complaint("solid.interface_modes", solid.interface_modes, allowed))
+    track: TrackTable | None = sections.get("track")
+    vehicle: VehicleTable | None = sections.get("vehicle")
+    if track is not None and vehicle is not None and track.rail != "given":
+        problems += problems_of(wheelset, track.rail, vehicle.wheel_radius)
+    return problems
 
 
 def _solid_on_journey(solid: SolidTable, journey: JourneyTable) -> list[str]:

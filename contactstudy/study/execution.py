@@ -60,6 +60,7 @@ def _surface(study: Study, run: str, table: SurfaceRun, progress: Progress | Non
         build.vehicle(study),
         irregularity_of(study, table.irregularity == "smooth"),
         build.journey(study, run),
+        geometry=build.geometry(study),
         modes=build.modes(study, run),
         wheel_damping=study.solid.wheel_damping,
         penalty=study.solid.penalty,

@@ -21,6 +21,7 @@ from contactstudy.track.model import DiscreteSupports, Slab, Track
 # Rough costs on a core of 2020 or later, measured with the shipped studies; for a forecast only.
 START = 4.0  # s, a process with its imports
 CONDENSATION = {"rail": 20.0, "wheel": 20.0, "wheel modes": 3.0}  # s, at 2 mm
+WHOLE = 5.0  # how much dearer the rail's whole section is to condense
 POINT_STEP, POINT_STEP_PER_DOF = 20e-6, 0.05e-6  # s
 SOLID_STEP, SOLID_STEP_PER_DOF = 300e-6, 0.2e-6  # s
 
@@ -59,11 +60,14 @@ def solid_dofs(study: Study, track: Track) -> int:
     solid = study.solid
     cells = round(track.length / solid.cell_length)
     # ends that let the rail slide along X are held there by one dof
-    held = {"clamped": 2 * solid.interface_modes, "pinned": 3, "free": 1}[track.ends]
+    whole = solid.section == "whole"
+    pinned = 7 if whole else 3
+    held = {"clamped": 2 * solid.interface_modes, "pinned": pinned, "free": 1}[track.ends]
     below = 0
     if isinstance(track.support, DiscreteSupports):
         # a half sleeper moves vertically; a node of the slab turns as well
         below = (2 if isinstance(track.support.layer, Slab) else 1) * (track.n_bays + 1)
+        below *= 1 + whole  # vertical, and of a whole section also lateral
     planes = (cells + 1) * solid.interface_modes
     return planes + cells * solid.internal_modes + below - held
 
@@ -119,7 +123,7 @@ def print_check(study: Study, console: Console) -> None:
 def _condensation(study: Study, companions: list[Study]) -> float:
     """Seconds of condensing what the cache does not have; rail and wheel at the same time."""
     needed = [
-        CONDENSATION[body]
+        CONDENSATION[body] * (WHOLE if body == "rail" and one.solid.section == "whole" else 1.0)
         for one in (study, *companions)
         for run in one.runs
         for body in one.bodies(run)

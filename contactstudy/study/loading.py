@@ -19,11 +19,12 @@ from contactstudy.study.overrides import override
 from contactstudy.study.results import IRREGULARITY_GROUP
 from contactstudy.study.schema import SECTIONS, SOLVERS, Study
 from contactstudy.study.section import Section
-from contactstudy.study.tables import SolidTable, TrackTable
+from contactstudy.study.tables import WHOLE, SolidTable, TrackTable
+from contactstudy.study.wheelset import PATHS as WHEELSET_PATHS
 
 _TOP_LEVEL = ("title", "description", "companions", *SECTIONS, "runs", "compare")
 _RUN_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
-_SHARED = ("track", "vehicle", "journey", "solid")
+_SHARED = ("track", "vehicle", "journey", "solid", "wheelset")
 _PATHS = ("file", "measured_overlay")
 
 
@@ -125,6 +126,11 @@ def parse_study(
         found += wrong
         if section is not None:
             sections[key] = section
+    if "solid" in sections and sections["solid"].section == "whole":
+        given = data.get("solid", {}) if main is None or "solid" in data else WHOLE
+        sections["solid"] = sections["solid"].model_copy(
+            update={key: value for key, value in WHOLE.items() if key not in given}
+        )
     if {"track", "solid"} <= sections.keys() and "cell_length" not in data.get("solid", {}):
         sections["solid"] = _fitting_cells(sections["solid"], sections["track"])
     runs, wrong = _runs(data.get("runs", {}))
@@ -226,6 +232,12 @@ def _resolve_paths(data: dict[str, Any], base: Path) -> None:
         for key in _PATHS:
             if isinstance(table.get(key), str) and table[key]:
                 table[key] = str(base / table[key])
+    table = data.get("wheelset")
+    if isinstance(table, dict):
+        for key in WHEELSET_PATHS:
+            name = table.get(key)
+            if isinstance(name, str) and Path(name).suffix:  # not the name of a drawn profile
+                table[key] = str(base / name)
     solid = data.get("solid")
     section = solid.get("wheel_section") if isinstance(solid, dict) else None
     if isinstance(section, str) and section.endswith(".toml"):

@@ -14,6 +14,7 @@ from contactstudy.study.loading import load_companions
 from contactstudy.study.results import IrregularityInfo
 from contactstudy.study.roughness import describe
 from contactstudy.study.schema import Study
+from contactstudy.study.wheelset import PATHS as WHEELSET_PATHS
 
 
 @dataclass(frozen=True)
@@ -73,6 +74,11 @@ def plan_study(study: Study, out_dir: Path) -> Plan:
         files[Path(section).name] = digest
         if "solid" in inputs:
             inputs["solid"]["wheel_section"] = Path(section).name
+    for key in WHEELSET_PATHS:
+        name = getattr(study.wheelset, key)
+        if "wheelset" in inputs and (digest := file_digest(name)):
+            files[Path(name).name] = digest
+            inputs["wheelset"][key] = Path(name).name
     return Plan(
         study=study,
         out_dir=out_dir,

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
+import re
 from typing import Annotated, Any
 
 from pydantic import BeforeValidator
 from pydantic.fields import FieldInfo
 
-from contactstudy.units import Limits, one_of_or
+from contactstudy.units import Limits, UnitError, one_of_or
 
 Length = Annotated[float, BeforeValidator(Limits("m", above=0.0))]
 LengthOrZero = Annotated[float, BeforeValidator(Limits("m", at_least=0.0))]
@@ -42,6 +44,26 @@ CellLength = Annotated[float, BeforeValidator(Limits("m", above=0.0, at_most=0.5
 InterfaceModes = Annotated[int, BeforeValidator(Limits("", at_least=3, at_most=60, whole=True))]
 InternalModes = Annotated[int, BeforeValidator(Limits("", at_least=0, at_most=40, whole=True))]
 
+LateralShift = Annotated[float, BeforeValidator(Limits("m", at_least=-0.05, at_most=0.05))]
+SMALL_ANGLE = Limits("rad", at_least=-0.2, at_most=0.2)
+SmallAngle = Annotated[float, BeforeValidator(SMALL_ANGLE)]
+RestOrAngle = Annotated[float | str, BeforeValidator(one_of_or(("rest",), SMALL_ANGLE))]
+_RATIO = re.compile(r"\s*1\s*:\s*(\d+(?:\.\d+)?)\s*")
+
+
+def _inclination(value: Any) -> float:
+    """Angle in rad of "1:40", of an angle with a unit, or of a bare number in rad."""
+    if isinstance(value, str) and (match := _RATIO.fullmatch(value)):
+        if float(match[1]) < 5:
+            raise UnitError("must be 1:5 or flatter")
+        return math.atan(1.0 / float(match[1]))
+    try:
+        return float(SMALL_ANGLE(value))
+    except UnitError as error:
+        raise UnitError(f"{error}, or a ratio like 1:40") from error
+
+
+Inclination = Annotated[float, BeforeValidator(_inclination)]
 CONTACT_STIFFNESS = Limits("N/m", above=0.0)
 ContactStiffness = Annotated[
     float | str,

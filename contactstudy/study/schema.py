@@ -14,6 +14,7 @@ from contactstudy.study.tables import (
     TrackTable,
     VehicleTable,
 )
+from contactstudy.study.wheelset import WheelsetTable
 
 SECTIONS: dict[str, type[Section]] = {
     "irregularity": IrregularityTable,
@@ -21,6 +22,7 @@ SECTIONS: dict[str, type[Section]] = {
     "vehicle": VehicleTable,
     "journey": JourneyTable,
     "solid": SolidTable,
+    "wheelset": WheelsetTable,
 }
 SOLVERS: dict[str, type[RunTable]] = {"point": PointRun, "surface": SurfaceRun}
 
@@ -36,7 +38,7 @@ class Study:
     title, description : str
     companions : tuple of str
         Shipped studies (or paths) whose results stand in the same report.
-    irregularity, track, vehicle, journey, solid : Section
+    irregularity, track, vehicle, journey, solid, wheelset : Section
         Tables of the file.
     runs : dict of str to PointRun or SurfaceRun
         In the order of the file; none for a study of the irregularity alone.
@@ -53,6 +55,7 @@ class Study:
     vehicle: VehicleTable = field(default_factory=VehicleTable)
     journey: JourneyTable = field(default_factory=lambda: JourneyTable.model_validate({}))
     solid: SolidTable = field(default_factory=SolidTable)
+    wheelset: WheelsetTable = field(default_factory=WheelsetTable)
     runs: dict[str, PointRun | SurfaceRun] = field(default_factory=dict)
     reference: str | None = None
 
@@ -116,4 +119,6 @@ class Study:
         if not self.runs:
             return ["irregularity", "track"]
         meshed = any(self.bodies(run) for run in self.runs)
-        return [key for key in SECTIONS if key != "solid" or meshed]
+        placed = meshed and self.solid.section == "whole"
+        used = {"solid": meshed, "wheelset": placed}
+        return [key for key in SECTIONS if used.get(key, True)]

@@ -163,13 +163,25 @@ class JourneyTable(Section):
     stations: tuple[q.LengthOrZero, ...] = ()
 
 
+WHOLE: dict[str, Any] = {
+    "interface_modes": 24,
+    "internal_modes": 14,
+    "contact_half_width": 0.012,
+}
+"""Defaults of ``[solid]`` for a whole section."""
+
+
 class SolidTable(Section):
     """``[solid]``: the meshed rail and wheel of surface contact.
+
+    ``section = "half"``: a tread even in y, centred on an upright rail. ``"whole"``: any position
+    of any profile, see ``[wheelset]``; other defaults then hold, `WHOLE`.
 
     The modes of a modal wheel go up to ``wheel_frequency``; their damping ratio is an assumption,
     see `contactstudy.solvers.surface.WHEEL_DAMPING`. A run may have another ``wheel``.
     """
 
+    section: Literal["half", "whole"] = "half"
     mesh_size: q.MeshSize = 0.002
     coarse_mesh_size: q.CoarseMeshSize = 0.009
     cell_length: q.CellLength = 0.1

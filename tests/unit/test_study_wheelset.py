@@ -1,0 +1,118 @@
+"""The table [wheelset] of a study: profiles and position, whole sections, what is refused."""
+
+import math
+
+import numpy as np
+import pytest
+
+from contactstudy.exceptions import InputError
+from contactstudy.study import build
+from contactstudy.study.loading import load_study
+
+WHOLE = ["solid.section=whole"]
+
+
+def loaded(*overrides: str):
+    return load_study("s1002_inclined", overrides)
+
+
+def refused(*overrides: str) -> str:
+    with pytest.raises(InputError) as error:
+        loaded(*overrides)
+    return "\n".join(error.value.problems)
+
+
+def test_whole_section_has_its_own_defaults_and_keeps_given_ones():
+    solid = loaded().solid
+    assert (solid.section, solid.interface_modes, solid.contact_half_width) == ("whole", 24, 0.012)
+    assert loaded("solid.interface_modes=20").solid.interface_modes == 20
+
+
+def test_inclination_as_ratio_or_angle():
+    ratio = loaded("wheelset.rail_inclination=1:20").wheelset.rail_inclination
+    assert ratio == pytest.approx(math.atan(0.05))
+    angle = loaded("wheelset.rail_inclination=25 mrad").wheelset.rail_inclination
+    assert angle == pytest.approx(0.025)
+
+
+def test_centred_position_follows_from_gauge_and_flange_backs():
+    """Tape circle 680 + 70 mm from the middle; gauge point of the inclined rail at 717.5 mm."""
+    placed = build.geometry(loaded())
+    assert placed is not None
+    # the gauge point, 36 mm beside and 14 mm below the crown, turned by 1:40; the depth counts
+    # from the highest point, 0.09 mm above the crown, where the head is 0.1 mm narrower
+    gauge_point = -36.0 * math.cos(0.025) + 14.0 * math.sin(0.025)
+    assert placed.pose.lateral * 1e3 == pytest.approx(750.0 - 717.5 + gauge_point, abs=0.15)
+    assert placed.pose.roll == pytest.approx(0.0, abs=1e-9)
+
+
+def test_shift_moves_the_wheels_of_the_two_sides_apart():
+    shifted = [
+        build.geometry(loaded("wheelset.lateral_shift=3 mm", f"wheelset.side={side}"))
+        for side in ("left", "right")
+    ]
+    centred = build.geometry(loaded())
+    left, right = (g.pose.lateral - centred.pose.lateral for g in shifted)
+    # the roll at rest swings the wheels' lowest points sideways about the axle
+    swing = 0.43 * shifted[1].pose.roll
+    assert right == pytest.approx(3e-3 + swing, abs=1e-6)
+    assert left == pytest.approx(-3e-3 - swing, abs=1e-6)
+    assert 0 < swing < 0.2e-3
+
+
+def test_fine_zones_lie_over_each_other():
+    study = loaded("wheelset.lateral_shift=2 mm")
+    s, arc = build.contact_zone(study)
+    placed = build.geometry(study)
+    below, _ = placed.overlap(1e-3)
+    assert below.min() < s < below.max()
+    rail, wheel = build.recipe(study), build.wheel_recipe(study)
+    assert (rail.contact_centre, wheel.contact_centre) == (arc, s)
+    assert not rail.symmetric and not wheel.symmetric
+
+
+def test_hertz_takes_the_curvatures_at_the_touch():
+    placed = build.geometry(loaded())
+    along, across = placed.relative_radii()
+    assert along == pytest.approx(0.43, rel=0.01)
+    # R300 of the crown against the hollow tread: z'' of EN 13715's polynomial B [1/mm]
+    s = placed.touch.wheel_s * 1e3
+    hollow = 2 * 1.565681624e-3 - 6 * 2.810427944e-5 * s + 12 * 5.844240864e-8 * s**2
+    hollow -= 20 * 1.562379023e-8 * s**3
+    assert 1 / across == pytest.approx(1 / 0.3 - 1e3 * hollow, rel=0.01)
+    cone = build.geometry(loaded("wheelset.wheel_profile=cone"))
+    assert cone.relative_radii()[1] == pytest.approx(0.3, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("overrides", "parts"),
+    [
+        (["solid.section=half"], ["wheelset.wheel_profile: applies only with solid.section"]),
+        (["wheelset.wheel_profile=S1003"], ["wheelset.wheel_profile", "S1003", "S1002"]),
+        (["wheelset.rail_inclination=1:2"], ["wheelset.rail_inclination", "1:5"]),
+        (["wheelset.lateral_shift=80 mm"], ["wheelset.lateral_shift", "80 mm", "0.05 m"]),
+        (["solid.interface_modes=5"], ["solid.interface_modes", "at least 6"]),
+        (["wheelset.rail_profile=worn.csv"], ["wheelset.rail_profile", "worn.csv"]),
+    ],
+)
+def test_impossible_positions_name_the_key(overrides, parts):
+    message = refused(*overrides)
+    for part in parts:
+        assert part in message
+
+
+def test_worn_wheel_from_a_file_beside_the_study(tmp_path):
+    from contactstudy.profiles.curve import wheel_curve
+
+    s = np.linspace(-0.030, 0.030, 241)
+    y, z = wheel_curve("S1002").point(s).T
+    table = "\n".join(f"{a:.6f},{b:.6f}" for a, b in zip(y * 1e3, z * 1e3, strict=True))
+    (tmp_path / "worn.csv").write_text(f"y [mm],z [mm]\n{table}\n", encoding="utf-8")
+    (tmp_path / "own.toml").write_text(
+        '[solid]\nsection = "whole"\n[wheelset]\nwheel_profile = "worn.csv"\n'
+        '[runs.a]\nsolver = "surface"\n',
+        encoding="utf-8",
+    )
+    own, drawn = (build.geometry(load_study(p)) for p in (tmp_path / "own.toml", "s1002_inclined"))
+    assert own.touch.wheel_s == pytest.approx(drawn.touch.wheel_s, abs=0.3e-3)
+    assert own.pose.lateral == pytest.approx(drawn.pose.lateral, abs=1e-9)
