@@ -68,7 +68,7 @@ def node_fields(
             "gap at the wheel's tread nodes, negative: penetration",
         ),
         "contact_status": _variable(
-            (dim, "point"), [weight @ (f > 0) for f in forces], "1", _STATUS
+            (dim, "point"), [np.minimum(weight @ (f > 0), 1.0) for f in forces], "1", _STATUS
         ),
     }
 
