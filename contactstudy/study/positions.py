@@ -24,7 +24,6 @@ from contactstudy.study.section import Section
 from contactstudy.units import Limits, UnitError, to_si
 
 _RANGE = re.compile(r"(.+?)\s+to\s+(.+?)\s+by\s+(.+)")
-_RATIO = re.compile(r"\s*1\s*:\s*(\d+(?:\.\d+)?)\s*")
 _MOST = 1001
 _TOP_LEVEL = ("title", "description", "positions")
 _PATHS = ("wheel_profile", "rail_profile")
@@ -58,23 +57,10 @@ def _rest_or(series: Series) -> Callable[[Any], Any]:
     return read
 
 
-def _inclination(value: Any) -> float:
-    """Angle in rad of "1:40", of an angle with a unit, or of a bare number in rad."""
-    if isinstance(value, str) and (match := _RATIO.fullmatch(value)):
-        if float(match[1]) < 5:
-            raise UnitError("must be 1:5 or flatter")
-        return math.atan(1.0 / float(match[1]))
-    try:
-        return float(Limits("rad", at_least=-0.2, at_most=0.2)(value))
-    except UnitError as error:
-        raise UnitError(f"{error}, or a ratio like 1:40") from error
-
-
 _ANGLE = Series("rad", at_least=-0.2, at_most=0.2)
 Lengths = Annotated[tuple[float, ...], BeforeValidator(Series("m", at_least=-0.1, at_most=0.1))]
 Angles = Annotated[tuple[float, ...], BeforeValidator(_ANGLE)]
 Rolls = Annotated[Literal["rest"] | tuple[float, ...], BeforeValidator(_rest_or(_ANGLE))]
-Inclination = Annotated[float, BeforeValidator(_inclination)]
 CellSide = Annotated[float, BeforeValidator(Limits("m", at_least=2e-5, at_most=1e-3))]
 
 
@@ -89,7 +75,7 @@ class PositionsTable(Section):
     wheel_profile: str = "S1002"
     rail_profile: str = "60E1"
     wheel_radius: q.Length = 0.43
-    rail_inclination: Inclination = math.atan(1 / 40)
+    rail_inclination: q.Inclination = math.atan(1 / 40)
     gauge: q.Length = 1.435
     gauge_depth: q.Length = 0.014
     flange_backs: q.Length = 1.360
