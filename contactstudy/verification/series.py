@@ -18,8 +18,9 @@ from contactstudy.study.schema import Study
 Array = NDArray[np.float64]
 
 BAND = 500.0
-"""Hz. Table 1's roughness ends at 265 Hz at 300 km/h; what the contact force has above is the
-contact's own: points that enter and leave the patch, and the mesh that passes under it."""
+"""Hz. Table 1's roughness ends at 265 Hz at 300 km/h; what the contact force has above comes from
+the discretisation: the rail's interface planes pass at 833 Hz and its multiples, and points enter
+and leave the patch."""
 
 QUANTITIES = (
     "contact force",
