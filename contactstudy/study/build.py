@@ -10,6 +10,7 @@ from contactstudy.contact.laws import ContactLaw, HertzSpring, LinearSpring, Rig
 from contactstudy.contact.press import tangent_stiffness
 from contactstudy.profiles.rail import rail_profile
 from contactstudy.profiles.wheel_body import wheel_dimensions
+from contactstudy.scans import Meeting
 from contactstudy.solids.cache import cached
 from contactstudy.solids.cell import RailCell, condense
 from contactstudy.solids.recipe import CellRecipe
@@ -60,9 +61,28 @@ def geometry(study: Study) -> Geometry | None:
     """Profiles and position of the wheel; None for half sections, centred and upright."""
     if study.solid.section == "half":
         return None
-    rail, wheel = study.wheelset.curves(study.track.rail)
+    drawn = study.wheelset.curves(study.track.rail)
     radius = study.vehicle.wheel_radius
-    return Geometry(rail, wheel, radius, study.wheelset.pose(rail, wheel, radius))
+    # scans seldom show gauge face and flange back, so the drawn profiles give the position
+    pose = study.wheelset.pose(*drawn, radius)
+    return Geometry(*study.scan.curves(*drawn), radius, pose)
+
+
+def scan_meeting(study: Study) -> Meeting | None:
+    """First touch of the study's scans, whose facets must cover the zone of contact.
+
+    Raises
+    ------
+    InputError
+        Listing everything that is wrong with the scans.
+    """
+    if study.solid.section == "half" or not study.scan.used:
+        return None
+    drawn = study.wheelset.curves(study.track.rail)
+    radius, solid = study.vehicle.wheel_radius, study.solid
+    pose = study.wheelset.pose(*drawn, radius)
+    zone = solid.contact_half_length, solid.contact_half_width
+    return study.scan.touch(*drawn, radius, pose, *zone)
 
 
 def contact_zone(study: Study) -> tuple[float, float]:

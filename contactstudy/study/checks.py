@@ -9,6 +9,7 @@ from contactstudy.exceptions import InputError
 from contactstudy.profiles.wheel_body import wheel_dimensions, wheel_sections
 from contactstudy.study.messages import complaint
 from contactstudy.study.runs import PointRun, RunTable
+from contactstudy.study.scan import ScanTable
 from contactstudy.study.section import Section
 from contactstudy.study.tables import (
     IrregularityTable,
@@ -60,6 +61,11 @@ def combined(sections: Mapping[str, Any], runs: Mapping[str, RunTable]) -> list[
     wheelset: WheelsetTable | None = sections.get("wheelset")
     if solid is not None and wheelset is not None and (meshed or pressed):
         problems += _wheelset(solid, wheelset, sections)
+    scan: ScanTable | None = sections.get("scan")
+    if scan is not None:
+        problems += scan.problems()
+    if scan is not None and scan.used and solid is not None and solid.section == "half":
+        problems.append('scan: applies only with solid.section = "whole" (here "half")')
     if solid is not None and journey is not None and meshed and journey.start < journey.end:
         problems += _solid_on_journey(solid, journey)
     return problems

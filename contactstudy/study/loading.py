@@ -17,6 +17,7 @@ from contactstudy.study import checks
 from contactstudy.study.messages import complaint, did_you_mean, from_validation, unknown
 from contactstudy.study.overrides import override
 from contactstudy.study.results import IRREGULARITY_GROUP
+from contactstudy.study.scan import PATHS as SCAN_PATHS
 from contactstudy.study.schema import SECTIONS, SOLVERS, Study
 from contactstudy.study.section import Section
 from contactstudy.study.tables import WHOLE, SolidTable, TrackTable
@@ -24,7 +25,7 @@ from contactstudy.study.wheelset import PATHS as WHEELSET_PATHS
 
 _TOP_LEVEL = ("title", "description", "companions", *SECTIONS, "runs", "compare")
 _RUN_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
-_SHARED = ("track", "vehicle", "journey", "solid", "wheelset")
+_SHARED = ("track", "vehicle", "journey", "solid", "wheelset", "scan")
 _PATHS = ("file", "measured_overlay")
 
 
@@ -230,6 +231,11 @@ def _resolve_paths(data: dict[str, Any], base: Path) -> None:
     table = data.get("irregularity")
     if isinstance(table, dict):
         for key in _PATHS:
+            if isinstance(table.get(key), str) and table[key]:
+                table[key] = str(base / table[key])
+    table = data.get("scan")
+    if isinstance(table, dict):
+        for key in SCAN_PATHS:
             if isinstance(table.get(key), str) and table[key]:
                 table[key] = str(base / table[key])
     table = data.get("wheelset")

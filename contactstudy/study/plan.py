@@ -10,9 +10,11 @@ from typing import Any
 from contactstudy.profiles.wheel_body import file_digest
 from contactstudy.provenance import versions
 from contactstudy.study import store
+from contactstudy.study.build import scan_meeting
 from contactstudy.study.loading import load_companions
 from contactstudy.study.results import IrregularityInfo
 from contactstudy.study.roughness import describe
+from contactstudy.study.scan import PATHS as SCAN_PATHS
 from contactstudy.study.schema import Study
 from contactstudy.study.wheelset import PATHS as WHEELSET_PATHS
 
@@ -79,12 +81,33 @@ def plan_study(study: Study, out_dir: Path) -> Plan:
         if "wheelset" in inputs and (digest := file_digest(name)):
             files[Path(name).name] = digest
             inputs["wheelset"][key] = Path(name).name
+    notes = described.warnings + _scans(study, inputs, files)
     return Plan(
         study=study,
         out_dir=out_dir,
         irregularity=described.info,
         inputs=inputs,
         files=files,
-        warnings=described.warnings,
+        warnings=notes,
         companions=tuple(companions),
+    )
+
+
+def _scans(study: Study, inputs: dict[str, Any], files: dict[str, str]) -> tuple[str, ...]:
+    """Check the scans, enter them and their residuals; how well they are fitted."""
+    if "scan" not in inputs:
+        return ()
+    found = scan_meeting(study)
+    for key in SCAN_PATHS:
+        if name := getattr(study.scan, key):
+            files[Path(name).name] = store.file_digest(Path(name))
+            inputs["scan"][key] = Path(name).name
+    inputs["scan"] |= study.scan.fitted()
+    notes = [f"scan {scan.summary()}" for scan in study.scan.surfaces() if scan is not None]
+    assert found is not None
+    return (
+        *notes,
+        "scan: facets touch "
+        f"{1e6 * abs(found.difference):.3g} um {'lower' if found.difference > 0 else 'higher'} "
+        "than the smooth surfaces",
     )

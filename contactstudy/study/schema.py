@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from contactstudy.study.runs import PointRun, RunTable, SurfaceRun
+from contactstudy.study.scan import ScanTable
 from contactstudy.study.section import Section
 from contactstudy.study.tables import (
     IrregularityTable,
@@ -23,6 +24,7 @@ SECTIONS: dict[str, type[Section]] = {
     "journey": JourneyTable,
     "solid": SolidTable,
     "wheelset": WheelsetTable,
+    "scan": ScanTable,
 }
 SOLVERS: dict[str, type[RunTable]] = {"point": PointRun, "surface": SurfaceRun}
 
@@ -38,7 +40,7 @@ class Study:
     title, description : str
     companions : tuple of str
         Shipped studies (or paths) whose results stand in the same report.
-    irregularity, track, vehicle, journey, solid, wheelset : Section
+    irregularity, track, vehicle, journey, solid, wheelset, scan : Section
         Tables of the file.
     runs : dict of str to PointRun or SurfaceRun
         In the order of the file; none for a study of the irregularity alone.
@@ -56,6 +58,7 @@ class Study:
     journey: JourneyTable = field(default_factory=lambda: JourneyTable.model_validate({}))
     solid: SolidTable = field(default_factory=SolidTable)
     wheelset: WheelsetTable = field(default_factory=WheelsetTable)
+    scan: ScanTable = field(default_factory=ScanTable)
     runs: dict[str, PointRun | SurfaceRun] = field(default_factory=dict)
     reference: str | None = None
 
@@ -120,5 +123,5 @@ class Study:
             return ["irregularity", "track"]
         meshed = any(self.bodies(run) for run in self.runs)
         placed = meshed and self.solid.section == "whole"
-        used = {"solid": meshed, "wheelset": placed}
+        used = {"solid": meshed, "wheelset": placed, "scan": placed and self.scan.used}
         return [key for key in SECTIONS if used.get(key, True)]
