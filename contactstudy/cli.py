@@ -130,6 +130,7 @@ def verify(
     *names: str,
     out: Annotated[Path, Parameter(name=["--out", "-o"])] = Path("reports/verification"),
     quick: Annotated[bool, Parameter(negative="", help="Leave out what takes long.")] = False,
+    jobs: Annotated[int, Parameter(name=["--jobs", "-j"], help="Cases at the same time.")] = 2,
     listing: Annotated[bool, Parameter(name="--list", negative="")] = False,
 ) -> None:
     """Run the named verification cases; write verification.pdf and verification.json.
@@ -157,7 +158,7 @@ def verify(
     from contactstudy.verification.runner import about, complaints, run_cases
 
     with TerminalReporter(_errors()) as reporter:
-        outcomes = run_cases(cases, out, quick, reporter)
+        outcomes = run_cases(cases, out, quick, reporter, jobs)
         with reporter.stage("typesetting"):
             write_json(outcomes, about(), out)
             pdf = write_verification(outcomes, about(), out)

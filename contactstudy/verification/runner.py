@@ -8,11 +8,13 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
+from contactstudy import sweep
 from contactstudy.exceptions import ContactStudyError
 from contactstudy.provenance import versions
 from contactstudy.study import store
 from contactstudy.study.files import ensure_writable, writing
 from contactstudy.study.reporter import Quiet, Reporter
+from contactstudy.sweep import Progress, Task, run_tasks
 from contactstudy.verification.cases import Case
 from contactstudy.verification.outcome import Outcome, from_data, judged, to_data
 
@@ -22,7 +24,11 @@ _OPTIONAL = ("tamaas",)
 
 
 def run_cases(
-    cases: Sequence[Case], out_dir: Path, quick: bool = False, reporter: Reporter | None = None
+    cases: Sequence[Case],
+    out_dir: Path,
+    quick: bool = False,
+    reporter: Reporter | None = None,
+    jobs: int = 1,
 ) -> list[Outcome]:
     """Run cases; those that are kept in `out_dir` from the same program are taken from there.
 
@@ -33,6 +39,8 @@ def run_cases(
     quick : bool
         Slow cases are not run.
     reporter : Reporter, optional
+    jobs : int
+        Cases at once, each in a process of its own; with 1 all run in this process.
 
     Returns
     -------
@@ -46,17 +54,46 @@ def run_cases(
     """
     reporter = reporter or Quiet()
     ensure_writable(out_dir)
-    outcomes = []
+    outcomes: dict[str, Outcome] = {}
+    todo = []
     for case in cases:
-        outcome = _skipped(case, quick) or _kept(case, out_dir)
-        if outcome is None:
-            reporter.begin(case.name, 1)
-            reporter.progress(case.name, 0, 1)
-            outcome = _run(case, out_dir)
-            reporter.end(case.name, outcome.good)
+        found = _skipped(case, quick) or _kept(case, out_dir)
+        if found is None:
+            todo.append(case)
+        else:
+            outcomes[case.name] = found
+            reporter.note(summary(found))
+    for case in todo:
+        reporter.begin(case.name, 1)
+
+    def finished(name: str, outcome: Outcome) -> None:
+        outcomes[name] = outcome
+        reporter.end(name, outcome.good)
         reporter.note(summary(outcome))
-        outcomes.append(outcome)
-    return outcomes
+
+    if jobs == 1:
+        for case in todo:
+            reporter.progress(case.name, 0, 1)
+            finished(case.name, _run(case, out_dir))
+    else:
+        run_tasks(
+            [Task(case.name, _task, (case, out_dir)) for case in todo],
+            jobs,
+            reporter.progress,
+            lambda name, ended: finished(name, _of_task(name, ended)),
+        )
+    return [outcomes[case.name] for case in cases]
+
+
+def _task(case: Case, out_dir: Path, progress: Progress) -> Outcome:
+    progress(0, 1)
+    return _run(case, out_dir)
+
+
+def _of_task(name: str, ended: sweep.Outcome) -> Outcome:
+    if isinstance(ended.value, Outcome):
+        return ended.value
+    return Outcome(name, "broke down", str(ended.error))
 
 
 def about() -> dict[str, Any]:
