@@ -207,11 +207,9 @@ class SurfaceCoupling:
         if self._spline is None:
             self._spline, self._across = patch_splines(patch, self.points)
             self._residual = ResidualFlexibility(
-                self._track,
                 self._spline,
                 self._across,
                 self.points.x,
-                self.half_length,
                 self._rail_step,
                 self._rail_period,
             )
@@ -220,7 +218,7 @@ class SurfaceCoupling:
             self._dof_compliance = self._compliance_of(patch.dofs)
             self._compliance_key = patch.key
         self._patch, self._patch_step = patch, step
-        self._residual_W = self._residual(X)
+        self._residual_W = self._residual(X, patch)
 
     def _interpolated(self, nodal: Array) -> Array:
         """Values at the points from values at the rail's surface nodes."""
@@ -262,7 +260,8 @@ class SurfaceCoupling:
         those found overlapping join, so the restriction never changes the result.
         """
         n, patch = len(free), self._patch
-        scale, C, H = self._scale, self._dof_compliance, patch.map
+        C = self._residual.beyond(self._scale * self._dof_compliance, patch)
+        H = patch.map
         ny = len(self.points.y)
         for _ in range(20):
             index = np.flatnonzero(chosen)
@@ -272,7 +271,7 @@ class SurfaceCoupling:
                 P = self._along[index // ny, :, None] * self._across[index % ny, None, :]
                 P = P.reshape(len(index), -1)
                 PH = P @ H
-                M = PH @ (scale * C) @ PH.T
+                M = PH @ C @ PH.T
                 M += self._residual_W.block(index)
                 M += self._body_W[index[:, None], index]
                 M.flat[:: len(index) + 1] += self._compliance[index]
@@ -289,7 +288,7 @@ class SurfaceCoupling:
                 free
                 + self._body_W @ forces
                 + self._residual_W @ forces
-                + self._interpolated(H @ (scale * (C @ (H.T @ nodal))))
+                + self._interpolated(H @ (C @ (H.T @ nodal)))
             )
             missed = ~chosen & (gap < -1e-12)
             if not missed.any():

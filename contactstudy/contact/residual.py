@@ -5,6 +5,11 @@ that the points find by interpolation, P R P^T, varies a little with their phase
 mesh: a ripple in the contact force with the period of the mesh, which no rail has. The mesh
 could lie anywhere under the wheel; taken as the mean over four equally spaced phases, the
 flexibility keeps its accuracy and loses the first three harmonics of that ripple.
+
+Where two cells meet, part of the local flexibility is not in R but in the map H to the track's
+dofs. So the mean is taken of both, with a static flexibility L of those dofs that stands in for
+what they do: < P (R + H L H^T) P^T >, and P H L H^T P^T, at the very place of the points, is
+taken off again. Whoever adds the flexibility of the dofs, P H C H^T P^T, adds C - L instead.
 """
 
 from dataclasses import dataclass
@@ -53,15 +58,12 @@ class ResidualFlexibility:
 
     Parameters
     ----------
-    track : PatchSource
     along : SplineLine
         Interpolation along the rail from the nodes of a patch, counted from its first.
     across : ndarray (npy, ny)
         Interpolation across the rail.
     points_x : ndarray (npx,)
         Positions of the points relative to the wheel in m.
-    half_length : float
-        Of the patches in m.
     step : float
         Distance of the nodes along the rail in m.
     period : int or None
@@ -72,41 +74,47 @@ class ResidualFlexibility:
 
     def __init__(
         self,
-        track: PatchSource,
         along: SplineLine,
         across: Array,
         points_x: Array,
-        half_length: float,
         step: float,
         period: int | None,
     ) -> None:
-        self._track, self._along, self._across, self._x = track, along, across, points_x
-        self._half_length, self._step, self._period = half_length, step, period
+        self._along, self._across, self._x = along, across, points_x
+        self._step, self._period = step, period
         self._kept: dict[int, Array] = {}
 
-    def __call__(self, X: float) -> Blend:
-        """Flexibility (n, n) in m/N with the wheel at X."""
+    def __call__(self, X: float, patch: SurfacePatch) -> Blend:
+        """Flexibility (n, n) in m/N with the wheel at X over a patch there.
+
+        With ``patch.local`` the mean holds a share of the dofs' as well, see `beyond`.
+        """
         if self._period is None:
-            exact = self._at(self._track.patch(X, self._half_length), X)
+            exact = self._at(patch, patch.residual, X)
             return Blend(0.0, exact, exact)
         scaled = X / self._step
         plane = int(np.floor(scaled))
-        t = scaled - plane
-        return Blend(t, self._mean(plane), self._mean(plane + 1))
+        return Blend(scaled - plane, self._mean(plane, patch), self._mean(plane + 1, patch))
 
-    def _mean(self, plane: int) -> Array:
+    def _mean(self, plane: int, patch: SurfacePatch) -> Array:
         assert self._period is not None
-        key = plane % self._period
+        # both sides of a change of patches have means of their own, each with its own dofs
+        key = plane - patch.key * self._period
         if key not in self._kept:
-            X = plane * self._step
-            patch = self._track.patch(X, self._half_length)
-            shifted = [self._at(patch, X + s * self._step) for s in PHASES]
+            F = patch.residual
+            if patch.local is not None:
+                F = F + patch.map @ patch.local @ patch.map.T
+            shifted = [self._at(patch, F, (plane + s) * self._step) for s in PHASES]
             self._kept[key] = np.mean(shifted, axis=0)
         return self._kept[key]
 
-    def _at(self, patch: SurfacePatch, X: float) -> Array:
+    def _at(self, patch: SurfacePatch, F: Array, X: float) -> Array:
         P = np.kron(self._along(X - patch.x[0] + self._x), self._across)
-        return np.asarray(P @ patch.residual @ P.T)
+        return np.asarray(P @ F @ P.T)
+
+    def beyond(self, C: Array, patch: SurfacePatch) -> Array:
+        """Flexibility C (nd, nd) of a patch's dofs less what is in the mean already."""
+        return C if self._period is None or patch.local is None else C - patch.local
 
 
 def patch_splines(patch: SurfacePatch, points: ContactPoints) -> tuple[SplineLine, Array]:

@@ -68,13 +68,12 @@ def bodies_at_rest(
     C = solved[patch.dofs]
     along, across = patch_splines(patch, points)
     P = np.kron(along(x - patch.x[0] + points.x), across)
-    residual = ResidualFlexibility(
-        track, along, across, points.x, half_length, track.thickness, track.residual_period
-    )
+    residual = ResidualFlexibility(along, across, points.x, track.thickness, track.residual_period)
     PH = P @ patch.map
     tread = points.wheel_rows.matrix(len(wheel.flexibility))
-    W = residual(x).block(np.arange(len(points.gap))) + tread @ wheel.flexibility @ tread.T
-    W += PH @ (0.5 * (C + C.T)) @ PH.T
+    W = residual(x, patch).block(np.arange(len(points.gap)))
+    W += tread @ wheel.flexibility @ tread.T
+    W += PH @ residual.beyond(0.5 * (C + C.T), patch) @ PH.T
     # deflection of the centre line per unit nodal force; forces push the rail down
     reference = P @ (patch.map @ (patch.centre_map[0] @ solved[patch.centre_dofs]))
     reference += P @ patch.centre_residual[0]

@@ -26,6 +26,11 @@ class SurfacePatch:
     map : ndarray (nodes, nd)
     residual : ndarray (nodes, nodes)
         Flexibility that the track's dofs leave out [m/N].
+    local : ndarray (nd, nd) or None
+        About the static flexibility of `dofs` where a load is near [m/N]: of two cells between
+        held outer planes. The map is as finely structured as the residual where the cells meet;
+        what is averaged over the mesh is ``residual + map @ local @ map.T``, see
+        `contact.residual`.
     x : ndarray (nx,)
         Positions on the track [m].
     y, arc : ndarray (ny,)
@@ -43,6 +48,7 @@ class SurfacePatch:
     dofs: NDArray[np.int64]
     map: Array
     residual: Array
+    local: Array | None
     x: Array
     y: Array
     arc: Array

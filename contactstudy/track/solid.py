@@ -170,6 +170,7 @@ class SolidTrack(AssembledTrack):
             dofs=dofs,
             map=np.where(held, 0.0, rows) if held.any() else rows,
             residual=maps.residual[planes, :, planes].reshape(nodes, nodes),
+            local=self._local if self.mean_phase else None,
             x=pair * self.recipe.length + h * np.arange(planes.start, planes.stop, dtype=float),
             y=self.cell.surface_y,
             arc=self.cell.surface_arc,
@@ -244,6 +245,17 @@ class SolidTrack(AssembledTrack):
     @cached_property
     def _pair(self) -> CellPair:
         return cell_pair(self.cell)
+
+    @cached_property
+    def _local(self) -> Array:
+        """Static flexibility of two cells between held outer planes, zero on those."""
+        m, step = self.recipe.interface_modes, self._chain.step
+        n, K = len(self.cell.stiffness), np.zeros((2 * step + m,) * 2)
+        K[:n, :n] += self.cell.stiffness
+        K[step:, step:] += self.cell.stiffness
+        F, inner = np.zeros_like(K), slice(m, 2 * step)
+        F[inner, inner] = np.linalg.inv(K[inner, inner])
+        return 0.5 * (F + F.T)
 
     @cached_property
     def _chain(self) -> CellChain:

@@ -109,6 +109,7 @@ class UnreducedTrack(AssembledTrack):
             dofs=self._place[(planes[:, None] * n + used).ravel()],
             map=rows,
             residual=np.zeros((len(rows),) * 2),
+            local=None,
             x=np.asarray(h * planes, dtype=float),
             y=self.surface_y,
             arc=self._rows.surface_arc,

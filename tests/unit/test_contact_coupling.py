@@ -45,6 +45,7 @@ class FakeTrack:
             dofs=np.arange(N_TRACK),
             map=1 + 0.1 * np.sin(X.reshape(-1, 1) * self.shapes[:, 0] + self.shapes[:, 1]),
             residual=half_space(nodes_x, nodes_y),
+            local=None,
             x=nodes_x,
             y=nodes_y,
             arc=rail_profile().running_arc(nodes_y),
