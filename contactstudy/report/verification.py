@@ -77,8 +77,8 @@ def _summary(outcomes: Sequence[Outcome]) -> list[Block]:
     banded = [c for c in checks if c.passed is not None]
     kept = sum(c.passed is True for c in banded)
     lines = (
-        f"{len(outcomes)} named case{'s' * (len(outcomes) > 1)}, {len(checks)} comparisons with a reference; {len(banded)} "
-        f"have a band, and {kept} of these are within it. A band limits the difference relative "
+        f"{len(outcomes)} named case{'s' * (len(outcomes) > 1)}, {len(checks)} comparisons with a "
+        f"reference; {len(banded)} have a band, and {kept} of these are within it. A band limits the difference relative "
         "to the reference (or to the scale that the case names). What has no band is reported."
     )
     rows = []
