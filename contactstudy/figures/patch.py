@@ -142,7 +142,7 @@ def _cuts(
     axes: Axes, x: FloatArray, y: FloatArray, p: FloatArray, hertz: HertzPatch | None, half: float
 ) -> None:
     for u, v, marker, fill, text in (
-        (x, y, "o", BLACK, "along, y = 0"),
+        (x, y, "o", BLACK, "along" if hertz is None else "along, y = 0"),
         (y, x, "s", "none", "across"),
     ):
         # The row of nodes nearest to the point of highest pressure.
@@ -164,17 +164,22 @@ def _cuts(
     axes.set_ylim(bottom=0)
     top = axes.get_ylim()[1]
     axes.set_ylim(0, 1.45 * top)
-    axes.set_xlabel("Distance from the centre (mm)")
+    axes.set_xlabel(f"Distance from the {_middle(hertz)} (mm)")
     axes.set_ylabel("Pressure (MPa)")
     axes.legend(loc="upper center", ncols=2, columnspacing=1.0, handlelength=2.0)
+
+
+def _middle(hertz: HertzPatch | None) -> str:
+    """Where the cuts cross: a patch without Hertz's ellipse may lie off the crown."""
+    return "node of highest pressure" if hertz is None else "centre"
 
 
 def _map_caption(name: str, patch: Patch, hertz: HertzPatch | None) -> str:
     peak = patch.pressure.max()
     text = (
         f"Contact pressure of the run {label(name)} at X = {exact(patch.position)} m, where the "
-        f"force is {number(patch.force * 1e-3)} kN: map (left) and cuts through the centre "
-        f"(right). The highest nodal pressure is {number(peak * 1e-6)} MPa"
+        f"force is {number(patch.force * 1e-3)} kN: map (left) and cuts through the "
+        f"{_middle(hertz)} (right). The highest nodal pressure is {number(peak * 1e-6)} MPa"
     )
     if hertz is None:
         return text + "."

@@ -8,8 +8,8 @@ from contactstudy.report.tables import Block, table
 from contactstudy.study.results import StudyResults
 
 _COLUMNS = [
-    "Run", "X (m)", "Force (kN)", "Peak pressure (MPa)", "Von Mises (MPa)", "at depth (mm)",
-    "Max. shear (MPa)", "at depth (mm)",
+    "Run", "X (m)", "Force (kN)", "Peak p (MPa)", "Von Mises (MPa)", "at depth (mm)",
+    "Shear (MPa)", "at depth (mm)",
 ]  # fmt: skip
 
 
@@ -25,7 +25,7 @@ def stress_tables(results: StudyResults) -> list[Block]:
         return []
     caption = (
         "Largest stresses below the patch at the chosen instants, those of an elastic half-space "
-        "under the nodal pressure; – where there is no contact."
+        "under the nodal pressure, whose highest is p; – where there is no contact."
     )
     return [table(_COLUMNS, rows, caption) | {"size": 8.5}]
 
