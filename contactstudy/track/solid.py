@@ -283,9 +283,7 @@ class SolidTrack(AssembledTrack):
             chain.keys,
             self.track,
             {
-                motion: [
-                    chain.pad_row(first, last, i) for first, last in self.track.pad_footprints
-                ]
+                motion: [chain.pad_row(first, last, i) for first, last in self.track.pad_footprints]
                 for i, motion in enumerate(MOTIONS[: self.cell.foot_map.shape[1]])
             },
         )

@@ -73,6 +73,7 @@ CASES: tuple[Case, ...] = (
     Case("tamaas_codes", "halfspace_codes:tamaas_codes", needs=("package:tamaas",)),
     Case("manchester_published", "manchester_case:manchester_published"),
     Case("manchester", "manchester_case:manchester", slow=True),
+    Case("s1002_solid", "s1002:solid_press", slow=True),
     Case("patch_filter", "patch_filter:patch_filter", slow=True),
     Case("convergence", "convergence:summary", slow=True),
     Case("convergence_mesh", "convergence:mesh", slow=True),

@@ -8,11 +8,17 @@ import skfem
 from skfem.helpers import dot, grad
 
 from contactstudy.banded import Factor
+from contactstudy.contact.pose import Pose
 from contactstudy.solids.cell import condense, section_of
 from contactstudy.solids.recipe import CellRecipe
+from contactstudy.solids.wheel import WheelRecipe, elastic_wheel
+from contactstudy.solvers.geometry import Geometry, wheel_points
+from contactstudy.solvers.journey import Journey
+from contactstudy.solvers.surface import surface_contact
 from contactstudy.track.model import DiscreteSupports, Track, WinklerFoundation
 from contactstudy.track.solid import SolidTrack, solid_rail
 from contactstudy.track.unreduced import UnreducedTrack
+from contactstudy.vehicle import wheel_column
 
 RECIPE = CellRecipe(
     size=0.008,
@@ -117,7 +123,7 @@ def test_lateral_bending_and_torsion_are_those_of_beams():
     print(f"\nlateral {bending[0]:+.2%} {bending[1]:+.2%}, J {J * 1e8:.1f} cm4")
     print(f"Saint-Venant's {expected * 1e8:.1f} cm4")
     assert np.abs(bending).max() < 0.02
-    assert J == pytest.approx(expected, rel=0.015)
+    assert pytest.approx(expected, rel=0.015) == J
 
 
 def saint_venant(element):
@@ -129,3 +135,52 @@ def saint_venant(element):
     polar = skfem.Functional(lambda w: w.x[0] ** 2 + w.x[1] ** 2).assemble(basis)
     psi = skfem.solve(*skfem.condense(stiffness, load, D=np.array([0])))
     return polar - load @ psi
+
+
+@pytest.mark.slow
+def test_s1002_rolls_on_an_inclined_rail():
+    """Smooth rail on a uniform foundation at 4 mm: the static load, and a rail that leans.
+
+    The contact lies on the gauge side of the shear centre's vertical, so the head moves and
+    rolls to one side; no force but the static one, up to the ripple of a coarse mesh.
+    """
+    recipe = CellRecipe(
+        size=0.004,
+        symmetric=False,
+        contact_centre=-0.001,
+        contact_half_width=0.016,
+        interface_modes=24,
+        internal_modes=8,
+    )
+    wheel = elastic_wheel(
+        WheelRecipe(
+            profile="S1002",
+            symmetric=False,
+            size=0.004,
+            contact_centre=0.002,
+            contact_half_width=0.012,
+        )
+    )
+    foundation = WinklerFoundation(100e6, 50e3, lateral_stiffness=50e6, lateral_damping=50e3)
+    track = SolidTrack(short_track(foundation, recipe, length=6.0), condense(recipe))
+    geometry = Geometry.of(wheel, Pose(np.arctan(1 / 40), -0.0030))
+    vehicle = wheel_column()
+    data = surface_contact(
+        track,
+        wheel,
+        vehicle,
+        lambda x: np.zeros_like(x),
+        Journey(start=2.0, end=4.0, speed=50.0, time_step=1e-4, fade_in=0.0),
+        geometry=geometry,
+    )
+    load, force = vehicle.static_loads[0], data["contact_force"].values
+    ripple = np.abs(force[100:] / load - 1).max()
+    lateral, roll = data["rail_lateral"].values, data["rail_roll"].values
+    print(f"\nstart {force[0] / load - 1:.1e}, ripple {ripple:.2%}")
+    print(f"lateral {lateral.mean() * 1e6:.1f} um, roll {roll.mean() * 1e6:.1f} urad")
+    assert force[0] == pytest.approx(load, rel=1e-6)
+    assert ripple < 0.01
+    # frictionless forces along the inclined normals push the rail towards the field side
+    points = wheel_points(wheel, "gauss", geometry)
+    assert np.all(points.normal_z > 0.99)
+    assert lateral.std() < 0.05 * abs(lateral.mean())

@@ -1,0 +1,88 @@
+"""S1002 on inclined 60E1: the meshed wheel and rail against half-spaces of the same shape."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from contactstudy.contact.hertz import contact_modulus
+from contactstudy.contact.patches import WheelPress, press_wheel
+from contactstudy.contact.pose import PlacedWheel
+from contactstudy.contact.press import contact_ellipse
+from contactstudy.solvers.geometry import Geometry, wheel_points
+from contactstudy.solvers.surface import geometry_press
+from contactstudy.study import build
+from contactstudy.study.loading import load_study
+from contactstudy.study.schema import Study
+from contactstudy.verification.check import CaseResult, Check, Table
+
+LOADS = np.array([0.25, 0.5, 0.75, 1.0]) * 67.4e3
+_METHOD = """
+The study s1002_inclined: wheel S1002 centred on standard gauge, 60E1 inclined 1:40, default mesh
+of whole sections (2 mm), pressed from a quarter of the static wheel load to all of it. The
+reference is the half-space with the same gap (Love's influence, cells of a sixty-fourth of the
+patch), which the Manchester benchmark and Tamaas check. Semi-axes are those of the ellipse of
+Hertz with the second moments of the pressure, on both sides; the peak is taken at the tread's
+nodes. The patch is long across the rail and short along it, a semi-axis there being two elements
+and a half. The solid's approach holds the compliance of wheel and rail at large too: one constant
+in m/N, fixed at the full load, is taken off, and the smaller loads are compared.
+"""
+
+
+def solid_press() -> CaseResult:
+    """Static press at four loads, solid bodies beside the half-space."""
+    study = load_study("s1002_inclined")
+    placed = build.geometry(study)
+    assert placed is not None
+    exact = [_half_space(study, placed, float(load)) for load in LOADS]
+    wheel = build.wheel(study)
+    track = build.solid_track(study, build.track(study))
+    curve = geometry_press(track, wheel, LOADS, study.solid.penalty, geometry=placed)
+    points = wheel_points(wheel, "gauss", placed)
+    # delta_solid = delta_half-space + c F
+    far = (curve.approach[-1] - exact[-1].travel) / LOADS[-1]
+    checks: list[Check] = []
+    rows: list[tuple[float, ...]] = []
+    for load, approach, solution, reference in zip(
+        LOADS, curve.approach, curve.solutions, exact, strict=True
+    ):
+        (patch,) = reference.patches
+        ellipse = contact_ellipse(points, solution.forces)
+        peak = float(points.nodal_pressure(solution.forces).max())
+        own, theirs = approach - far * load, reference.travel
+        at, source = f"at {load / 1e3:.1f} kN", "half-space, Love (1929)"
+        checks += [
+            Check(f"semi-axis along {at}", ellipse.along, patch.along, "m", source, 0.03),
+            Check(f"semi-axis across {at}", ellipse.across, patch.across, "m", source, 0.03),
+            Check(
+                f"centre of pressure {at}",
+                ellipse.centre[1],
+                patch.centre.y,
+                "m",
+                source,
+                0.06,
+                scale=patch.across,
+            ),
+            Check(f"peak pressure {at}", peak, patch.peak_pressure, "Pa", source, 0.06),
+        ]
+        if load < LOADS[-1]:
+            checks.append(Check(f"approach {at}", own, theirs, "m", source, 0.02))
+        secant = load / own * 1e-9
+        rows.append((load / 1e3, approach * 1e6, own * 1e6, theirs * 1e6, secant))
+    table = Table(
+        f"Approach of hub and rail's centre line; far field {far * 1e9:.4f} um/kN taken off",
+        ("load (kN)", "solid (um)", "less far field (um)", "half-space (um)", "secant (GN/m)"),
+        tuple(rows),
+    )
+    return CaseResult(
+        "s1002_solid",
+        "S1002 on inclined 60E1: solid bodies against the half-space",
+        " ".join(_METHOD.split()),
+        tuple(checks),
+        tables=(table,),
+    )
+
+
+def _half_space(study: Study, placed: Geometry, load: float) -> WheelPress:
+    modulus = contact_modulus(study.track.youngs_modulus, study.track.poisson_ratio)
+    body = PlacedWheel(placed.wheel, placed.radius, placed.pose)
+    return press_wheel(body, placed.rail, load, modulus)
