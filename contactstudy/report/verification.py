@@ -76,10 +76,12 @@ def _summary(outcomes: Sequence[Outcome]) -> list[Block]:
     checks = [c for o in outcomes if o.result for c in o.result.checks]
     banded = [c for c in checks if c.passed is not None]
     kept = sum(c.passed is True for c in banded)
+    plural = "s" if len(outcomes) > 1 else ""
     lines = (
-        f"{len(outcomes)} named case{'s' * (len(outcomes) > 1)}, {len(checks)} comparisons with a "
-        f"reference; {len(banded)} have a band, and {kept} of these are within it. A band limits the difference relative "
-        "to the reference (or to the scale that the case names). What has no band is reported."
+        f"{len(outcomes)} named case{plural}, {len(checks)} comparisons with a reference; "
+        f"{len(banded)} have a band, and {kept} of these are within it. A band limits the "
+        "difference relative to the reference (or to the scale that the case names). What has no "
+        "band is reported."
     )
     rows = []
     for o in outcomes:
