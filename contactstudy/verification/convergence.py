@@ -16,9 +16,9 @@ METHOD = (
     f"dynamic part is also compared below {BAND:g} Hz: the roughness ends at 265 Hz, and what the "
     "force has above comes from the discretisation. The largest part of that are dips of some "
     "30 N, 0.05 % of the load, where the patch crosses an interface plane of the rail's cells, "
-    "every 0.1 m: the static approach is 16 nm larger there. The error left at the default is its difference from "
-    "the finest level and the estimate of what that one has itself: by the observed order, or, "
-    "where there is none, the last step between levels."
+    "every 0.1 m: the static approach is 16 nm larger there. The error left at the default is its "
+    "difference from the finest level and the estimate of what that one has itself: by the "
+    "observed order, or, where there is none, the last step between levels."
 )
 LEFT = "difference from the finest level and that one's own error"
 
