@@ -188,6 +188,7 @@ class SurfaceCoupling:
             "contact_area": points.contact_area(active),
             "peak_pressure": float((self._tread @ forces / self._tread_area).max()),
             "penetration": float(self._overlap.max()),
+            **points.semi_axes(forces),
             # what the reduced track leaves out of the centre line's deflection
             "centre_residual": -float(patch.centre_residual[0] @ surface_load),
         }

@@ -164,8 +164,8 @@ class JourneyTable(Section):
 
 
 WHOLE: dict[str, Any] = {
-    "interface_modes": 24,
-    "internal_modes": 14,
+    "interface_modes": 20,
+    "internal_modes": 8,
     "contact_half_width": 0.012,
 }
 """Defaults of ``[solid]`` for a whole section."""

@@ -141,3 +141,17 @@ def test_points_know_their_facets(quadrature: str) -> None:
             & (y <= points.wheel_y[j + 1] + 1e-12)
         )
         np.testing.assert_array_equal(points.listed(np.array([facet])), inside)
+
+
+@pytest.mark.parametrize("symmetric", [True, False])
+def test_semi_axes_are_those_of_hertz_pressure(symmetric):
+    a, b = 6.1e-3, 4.8e-3
+    y = np.linspace(0.0 if symmetric else -8e-3, 8e-3, 41)
+    points = contact_points(
+        np.linspace(-8e-3, 8e-3, 81), y, 0.43, rail_profile(), wheel_profile(), symmetric
+    )
+    p = np.maximum(1 - (points.x_of_points / a) ** 2 - (points.y_of_points / b) ** 2, 0.0)
+    axes = points.semi_axes(np.sqrt(p) * points.area)
+    assert axes["semi_axis_along"] == pytest.approx(a, rel=2e-3)
+    assert axes["semi_axis_across"] == pytest.approx(b, rel=2e-3)
+    assert points.semi_axes(0.0 * p)["semi_axis_along"] == 0.0

@@ -24,8 +24,8 @@ def refused(*overrides: str) -> str:
 
 def test_whole_section_has_its_own_defaults_and_keeps_given_ones():
     solid = loaded().solid
-    assert (solid.section, solid.interface_modes, solid.contact_half_width) == ("whole", 24, 0.012)
-    assert loaded("solid.interface_modes=20").solid.interface_modes == 20
+    assert (solid.section, solid.interface_modes, solid.contact_half_width) == ("whole", 20, 0.012)
+    assert loaded("solid.interface_modes=22").solid.interface_modes == 22
 
 
 def test_inclination_as_ratio_or_angle():
