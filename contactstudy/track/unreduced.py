@@ -194,7 +194,9 @@ class UnreducedTrack(AssembledTrack):
             np.repeat(self.thickness * np.arange(1, inner + 1), n),
             self.track,
             {
-                motion: [self._pad_row(*ends, foot) for ends in self.track.pad_footprints]
+                motion: [
+                    self._pad_row(first, last, foot) for first, last in self.track.pad_footprints
+                ]
                 for motion, foot in zip(MOTIONS, rows.foot, strict=False)
             },
         )

@@ -76,8 +76,13 @@ def test_files_that_cannot_be_read(tmp_path):
 
 @pytest.mark.parametrize(
     ("mesh", "body", "written_in", "read_as"),
-    [(RAIL, "rail", "mm", "m"), (RAIL, "rail", "m", "mm"), (RAIL, "rail", "mm", "in")]
-    + [(WHEEL, "wheel", "mm", "cm"), (WHEEL, "wheel", "m", "mm")],
+    [
+        (RAIL, "rail", "mm", "m"),
+        (RAIL, "rail", "m", "mm"),
+        (RAIL, "rail", "mm", "in"),
+        (WHEEL, "wheel", "mm", "cm"),
+        (WHEEL, "wheel", "m", "mm"),
+    ],
 )
 def test_a_wrong_unit_says_what_would_fit(tmp_path, mesh, body, written_in, read_as):
     factor = {"mm": 1e-3, "m": 1.0}[written_in]
