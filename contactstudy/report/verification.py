@@ -143,6 +143,8 @@ def _checks(checks: Sequence[Check]) -> Block:
         note = "Sources: " + "; ".join(f"({i + 1}) {s}" for i, s in enumerate(sources)) + "."
     made = table(columns, rows, "Reference beside computed.", 1, note)
     made["columns"][0]["wide"] = True
+    if max(len(c.quantity) for c in checks) > 36:  # fewer of them then take two lines
+        made["size"] = 8
     return made
 
 
