@@ -285,10 +285,12 @@ class SurfaceCoupling:
                 )
                 forces[index], active[index] = solution.forces, solution.active
                 nodal = P.T @ solution.forces
+            loaded = np.flatnonzero(forces)
+            pressing = forces[loaded]
             gap = (
                 free
-                + self._body_W @ forces
-                + self._residual_W @ forces
+                + pressing @ self._body_W[loaded]
+                + self._residual_W.product(loaded, pressing)
                 + self._interpolated(H @ (C @ (H.T @ nodal)))
             )
             missed = ~chosen & (gap < -1e-12)

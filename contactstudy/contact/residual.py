@@ -41,9 +41,9 @@ class Blend:
         at = np.ix_(index, index)
         return np.asarray((1 - self.t) * self.A[at] + self.t * self.B[at])
 
-    def __matmul__(self, x: Array) -> Array:
-        """Product with a vector."""
-        return np.asarray((1 - self.t) * (self.A @ x) + self.t * (self.B @ x))
+    def product(self, index: NDArray[np.int64], x: Array) -> Array:
+        """Product with a vector that has the values x at an index and zeros elsewhere."""
+        return np.asarray((1 - self.t) * (x @ self.A[index]) + self.t * (x @ self.B[index]))
 
 
 class PatchSource(Protocol):
@@ -109,12 +109,20 @@ class ResidualFlexibility:
         return self._kept[key]
 
     def _at(self, patch: SurfacePatch, F: Array, X: float) -> Array:
-        P = np.kron(self._along(X - patch.x[0] + self._x), self._across)
-        return np.asarray(P @ F @ P.T)
+        # P = along x across; P F P^T one factor at a time
+        along = self._along(X - patch.x[0] + self._x)
+        half = _rows(along, self._across, F)
+        return _rows(along, self._across, np.ascontiguousarray(half.T))
 
     def beyond(self, C: Array, patch: SurfacePatch) -> Array:
         """Flexibility C (nd, nd) of a patch's dofs less what is in the mean already."""
         return C if self._period is None or patch.local is None else C - patch.local
+
+
+def _rows(along: Array, across: Array, F: Array) -> Array:
+    """``kron(along, across) @ F`` without the Kronecker product."""
+    grid = np.tensordot(along, F.reshape(along.shape[1], across.shape[1], -1), axes=1)
+    return np.asarray((across @ grid).reshape(-1, F.shape[1]))
 
 
 def patch_splines(patch: SurfacePatch, points: ContactPoints) -> tuple[SplineLine, Array]:
