@@ -166,6 +166,7 @@ class JourneyTable(Section):
 WHOLE: dict[str, Any] = {
     "interface_modes": 20,
     "internal_modes": 8,
+    "contact_half_length": 0.010,
     "contact_half_width": 0.012,
 }
 """Defaults of ``[solid]`` for a whole section."""
