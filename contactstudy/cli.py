@@ -5,6 +5,7 @@ Exit status 0, 1 (broke down, or a check fails), 2 (input), 130 (interrupted).
 
 from __future__ import annotations
 
+import os
 import signal
 import sys
 import threading
@@ -18,6 +19,7 @@ from rich.console import Console
 
 from contactstudy import __version__
 from contactstudy.exceptions import ContactStudyError
+from contactstudy.sweep import ONE_THREAD
 
 if TYPE_CHECKING:
     from contactstudy.study.positions import PositionsStudy
@@ -243,6 +245,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     arguments : sequence of str, optional
         Instead of ``sys.argv[1:]``.
     """
+    # before anything loads a BLAS: bytes, and small problems' speed, depend on its threads
+    os.environ.update(ONE_THREAD)
     tokens = list(sys.argv[1:] if arguments is None else arguments)
     if (
         signal.getsignal(signal.SIGINT) is signal.SIG_IGN

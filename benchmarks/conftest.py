@@ -1,0 +1,7 @@
+"""One BLAS thread in the benchmarks, as in the program's workers: set before NumPy is loaded."""
+
+import os
+
+from contactstudy.sweep import ONE_THREAD
+
+os.environ.update(ONE_THREAD)
