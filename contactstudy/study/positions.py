@@ -21,6 +21,7 @@ from contactstudy.study.loading import find_study
 from contactstudy.study.messages import complaint, from_validation, unknown
 from contactstudy.study.overrides import override
 from contactstudy.study.section import Section
+from contactstudy.study.wheelset import off_track
 from contactstudy.units import Limits, UnitError, to_si
 
 _RANGE = re.compile(r"(.+?)\s+to\s+(.+?)\s+by\s+(.+)")
@@ -222,7 +223,6 @@ def _wheelset(table: PositionsTable) -> tuple[Wheelset | None, list[str]]:
         t.tape_line,
     )  # fmt: skip
     try:
-        made.gauge_point()
+        return made, off_track("positions", made)
     except InputError as error:
         return None, [f"positions.gauge_depth: {problem}" for problem in error.problems]
-    return made, []

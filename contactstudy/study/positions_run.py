@@ -11,7 +11,7 @@ import numpy as np
 import xarray as xr
 
 from contactstudy.contact.patches import press_wheel
-from contactstudy.contact.wheelset import Side
+from contactstudy.contact.wheelset import SIDES, Side
 from contactstudy.exceptions import InputError, NumericalError
 from contactstudy.profiles.curve import ProfileCurve
 from contactstudy.provenance import provenance, versions
@@ -20,6 +20,7 @@ from contactstudy.study.files import ensure_writable, writing
 from contactstudy.study.positions import PositionsStudy
 from contactstudy.study.reporter import Quiet, Reporter
 from contactstudy.study.results import RESULT_FILE
+from contactstudy.study.wheelset import derailed
 
 CSV_FILE = "patches.csv"
 # name -> unit, meaning
@@ -116,6 +117,9 @@ def _pressed(study: PositionsStudy, side: Side, k: int) -> list[dict[str, Any]]:
     where = f"{side} wheel at {1e3 * shift:g} mm and {1e3 * yaw:g} mrad"
     try:
         turned = wheelset.rest_roll(shift, yaw) if roll is None else roll
+        touching = SIDES if roll is None else (side,)
+        if climbed := derailed(wheelset, touching, shift, yaw, turned):
+            raise InputError(climbed)
         placed = wheelset.placed(side, shift, yaw, turned)
         press = press_wheel(placed, wheelset.rail, table.load, study.modulus, side=table.cell)
     except InputError as error:

@@ -193,13 +193,13 @@ class SolidTable(Section):
     contact_points: Literal["gauss", "nodes"] = "gauss"
     penalty: q.Penalty = 1e16
     enforcement: Literal["penalty", "augmented"] = "penalty"
-    penetration_tolerance: q.Length = 1e-9
+    penetration_tolerance: q.Penetration = 1e-9
     wheel: Literal["rigid", "quasi-static", "modal"] = "quasi-static"
     wheel_section: str = "straight_860"
-    wheel_frequency: q.Frequency = 5000.0
+    wheel_frequency: q.ModeFrequency = 5000.0
     wheel_damping: q.Fraction = 1e-3
     pressure_at: tuple[q.Position, ...] = ()
-    animation_frames: q.CountOrZero = 0
+    animation_frames: q.Frames = 0
     animation_span: tuple[q.Position, ...] = ()
 
     applies: ClassVar[dict[str, Condition]] = {

@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 from typing import Literal
 
+import numpy as np
+
 from contactstudy.contact.pose import Pose
-from contactstudy.contact.wheelset import Wheelset
+from contactstudy.contact.smooth_touch import smooth_touch
+from contactstudy.contact.wheelset import SIDES, Side, Wheelset
 from contactstudy.exceptions import ContactStudyError, InputError
 from contactstudy.profiles.curve import ProfileCurve, rail_curve, wheel_curve
 from contactstudy.study import quantities as q
@@ -14,6 +18,10 @@ from contactstudy.study.section import Section
 
 PATHS = ("wheel_profile", "rail_profile")
 """Keys that may hold a file's name instead of a profile's."""
+CLIMBED = math.radians(26.6)
+"""Contact angle on the flange's tip where a climbing wheel counts as derailed (TCRP Report 71)."""
+_FLANGE = math.radians(45)
+_BESIDE = 0.05
 
 
 class WheelsetTable(Section):
@@ -68,16 +76,9 @@ class WheelsetTable(Section):
         Raises
         ------
         InputError
-            If the wheelset does not fit on the track.
+            If the wheelset does not fit on the track, or has climbed a rail.
         """
-        wheelset = Wheelset(
-            wheel, rail, radius, self.rail_inclination, self.gauge, self.gauge_depth,
-            self.flange_backs, self.tape_line,
-        )  # fmt: skip
-        roll = self.roll
-        if isinstance(roll, str):
-            roll = wheelset.rest_roll(self.lateral_shift, self.yaw)
-        return wheelset.pose(self.side, self.lateral_shift, self.yaw, roll)
+        return _pose(self, rail, wheel, radius)
 
 
 def problems_of(table: WheelsetTable, meshed_rail: str, radius: float) -> list[str]:
@@ -89,3 +90,78 @@ def problems_of(table: WheelsetTable, meshed_rail: str, radius: float) -> list[s
     except ContactStudyError as error:
         return [f"wheelset: {error}"]
     return []
+
+
+@lru_cache(maxsize=16)
+def _pose(table: WheelsetTable, rail: ProfileCurve, wheel: ProfileCurve, radius: float) -> Pose:
+    wheelset = Wheelset(
+        wheel, rail, radius, table.rail_inclination, table.gauge, table.gauge_depth,
+        table.flange_backs, table.tape_line,
+    )  # fmt: skip
+    if beside := off_track("wheelset", wheelset):
+        raise InputError(beside)
+    shift, yaw, roll = table.lateral_shift, table.yaw, table.roll
+    at_rest = isinstance(roll, str)
+    if isinstance(roll, str):
+        roll = wheelset.rest_roll(shift, yaw)
+    if climbed := derailed(wheelset, SIDES if at_rest else (table.side,), shift, yaw, roll):
+        given = complaint_of_position("wheelset.lateral_shift", shift, yaw)
+        raise InputError([f"{given}: {problem}" for problem in climbed])
+    return wheelset.pose(table.side, shift, yaw, roll)
+
+
+def complaint_of_position(key: str, shift: float, yaw: float) -> str:
+    """Where a position is meant, e.g. "wheelset.lateral_shift = 40 mm with a yaw of 0 mrad"."""
+    return f"{key} = {1e3 * shift:g} mm with a yaw of {1e3 * yaw:g} mrad"
+
+
+def off_track(path: str, wheelset: Wheelset) -> list[str]:
+    """Complaint about a wheelset that is too wide or too narrow for its track.
+
+    Parameters
+    ----------
+    path : str
+        The table whose keys are named.
+    wheelset : Wheelset
+    """
+    beside = wheelset.half - wheelset.gauge / 2 + wheelset.gauge_point()
+    if abs(beside) <= _BESIDE:
+        return []
+    return [
+        f"{path}.gauge = {wheelset.gauge:g} m, {path}.flange_backs = {wheelset.flange_backs:g} m, "
+        f"{path}.tape_line = {wheelset.tape_line:g} m: the tape circles of a centred wheelset lie "
+        f"{1e3 * abs(beside):.4g} mm {'outside' if beside > 0 else 'inside'} the rails' crowns; "
+        f"must be at most {1e3 * _BESIDE:g} mm"
+    ]
+
+
+def derailed(
+    wheelset: Wheelset, sides: tuple[Side, ...], shift: float, yaw: float, roll: float
+) -> list[str]:
+    """Complaints about wheels that touch their rail with the tip or the back of the flange.
+
+    Parameters
+    ----------
+    wheelset : Wheelset
+    sides : tuple of {"left", "right"}
+        Wheels that touch.
+    shift, yaw, roll : float
+        [m, rad, rad].
+    """
+    wheel = wheelset.wheel
+    s = np.linspace(*wheel.s_range, 2001)
+    normal = np.asarray(wheel.normal(s))
+    slope = np.arctan2(normal[:, 0], -normal[:, 1]) * np.where(s < 0, 1.0, 0.0)
+    if not slope.max() > _FLANGE:
+        return []  # no flange
+    steepest = float(s[np.argmax(slope)])
+    problems = []
+    for side in sides:
+        touch = smooth_touch(wheelset.placed(side, shift, yaw, roll), wheelset.rail)
+        if touch.wheel_s < steepest and touch.angle < CLIMBED:
+            problems.append(
+                f"the {side} wheel stands on its rail with the flange's tip (contact angle "
+                f"{math.degrees(touch.angle):.1f} degrees, {-1e3 * touch.wheel_s:.1f} mm from the "
+                f"tape circle): it has derailed; must be above {math.degrees(CLIMBED):.1f} degrees"
+            )
+    return problems
