@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contactstudy.contact.facets import placed_candidates
+from contactstudy.contact.interpolation import SLACK
 from contactstudy.contact.placed import placed_points
 from contactstudy.contact.points import ContactPoints, contact_points, rolling_drop
 from contactstudy.contact.pose import PlacedWheel, Pose
@@ -173,7 +174,8 @@ def mesh_problems(
         )
     if recipe.symmetric and geometry is not None:
         problems.append("surface contact: a half section has no pose; mesh whole sections")
-    first, last = (-np.inf if half else track.surface_arc[0]), track.surface_arc[-1]
+    slack = SLACK * float(np.diff(track.surface_arc).min())
+    first, last = (-np.inf if half else track.surface_arc[0] - slack), track.surface_arc[-1] + slack
     if points.arc.min() < first or points.arc.max() > last:
         problems.append(
             f"wheel contact_half_width = {recipe.contact_half_width:.4g} m: its contact points "
