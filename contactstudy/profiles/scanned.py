@@ -110,7 +110,7 @@ def fit_rail_head(
     centre = np.array([0.5 * (p[:, 0].min() + p[:, 0].max()), middle, 0.0])
     # normals of a prism are square to its direction
     direction = np.linalg.eigh(n.T @ n)[1][:, 0]
-    direction = direction * np.sign(direction[0])
+    direction = direction * np.copysign(1.0, direction[0])
     if direction[0] < 0.9:
         raise InputError(
             f"{name}: the surface runs along ({direction[0]:.2f}, {direction[1]:.2f}, "

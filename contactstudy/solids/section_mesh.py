@@ -74,6 +74,18 @@ def _block_corners(profile: RailProfile) -> list[tuple[float, float]]:
     ]
 
 
+def fine_reach(profile: RailProfile, size: float) -> float:
+    """How far from the crown the fine running surface may reach, arc length in m.
+
+    Parameters
+    ----------
+    profile : RailProfile
+    size : float
+        Element size at the running surface in m.
+    """
+    return _Outline.of(profile).top_length - size
+
+
 def rail_section_mesh(
     profile: RailProfile,
     size: float = 0.002,

@@ -8,12 +8,14 @@ from contactstudy import integrators
 from contactstudy.contact.hertz import HertzContact, contact_modulus, hertz_contact
 from contactstudy.contact.laws import ContactLaw, HertzSpring, LinearSpring, RigidContact
 from contactstudy.contact.press import tangent_stiffness
+from contactstudy.exceptions import InputError
 from contactstudy.profiles.rail import rail_profile
 from contactstudy.profiles.wheel_body import wheel_dimensions
 from contactstudy.scans import Meeting
 from contactstudy.solids.cache import cached
 from contactstudy.solids.cell import RailCell, condense
 from contactstudy.solids.recipe import CellRecipe
+from contactstudy.solids.section_mesh import fine_reach
 from contactstudy.solids.wheel import WheelFlexibility, WheelRecipe, elastic_wheel, rigid_wheel
 from contactstudy.solids.wheel_modes import ModesRecipe, WheelModes, wheel_modes
 from contactstudy.solids.wheel_recipe import FAR_STEP, FAR_STEP_OF_MODES
@@ -22,6 +24,7 @@ from contactstudy.solvers.journey import Journey
 from contactstudy.solvers.surface import PRESS_LOADS, geometry_press
 from contactstudy.study.runs import PointRun, RunTable
 from contactstudy.study.schema import Study
+from contactstudy.study.wheelset import complaint_of_position
 from contactstudy.track.model import (
     Ballast,
     DiscreteSupports,
@@ -90,13 +93,31 @@ def contact_zone(study: Study) -> tuple[float, float]:
 
     Where the bodies would overlap at an approach of 80 um at 70 kN and in proportion to
     ``F^(2/3)`` at others: somewhat more than the approach of steel wheels.
+
+    Raises
+    ------
+    InputError
+        If the rail's fine zone would reach beyond its head.
     """
     placed = geometry(study)
     if placed is None:
         return 0.0, 0.0
     load = float(vehicle(study).static_loads[0])
     s, arc = placed.overlap(80e-6 * (load / 70e3) ** (2 / 3))
-    return tuple(round(2e3 * 0.5 * (v.min() + v.max())) * 0.5e-3 for v in (s, arc))
+    on_wheel, on_rail = (round(2e3 * 0.5 * (v.min() + v.max())) * 0.5e-3 for v in (s, arc))
+    solid, place = study.solid, study.wheelset
+    reach = fine_reach(rail_profile(study.track.rail), solid.mesh_size)
+    edge = abs(on_rail) + solid.contact_half_width + RAIL_MARGIN
+    if edge > reach + 1e-9:
+        at = complaint_of_position("wheelset.lateral_shift", place.lateral_shift, place.yaw)
+        raise InputError(
+            f"{at}: the {place.side} wheel touches its rail {1e3 * abs(on_rail):.1f} mm from the "
+            f"crown; with solid.contact_half_width = {1e3 * solid.contact_half_width:g} mm the "
+            f"finely meshed zone would end at {1e3 * edge:.1f} mm, and must end within "
+            f"{1e3 * reach:.1f} mm. Contact further down is computed by studies of positions "
+            "(table [positions])"
+        )
+    return on_wheel, on_rail
 
 
 def wheel_recipe(study: Study) -> WheelRecipe:

@@ -21,6 +21,8 @@ from contactstudy.study.tables import (
 from contactstudy.study.wheelset import WheelsetTable, problems_of
 
 _SLACK = 1e-9  # relative, for lengths that were given in decimal
+# what the meshes of wheel and rail allow; the rail's reaches further by `build.RAIL_MARGIN`
+_ZONES = {"contact_half_length": 0.040, "contact_half_width": 0.023}
 
 
 def inapplicable(path: str, section: Section) -> list[str]:
@@ -154,6 +156,10 @@ def _solid_on_track(solid: SolidTable, track: TrackTable, meshed: bool) -> list[
     if solid.coarse_mesh_size < solid.mesh_size:
         allowed = f"must be at least solid.mesh_size, {solid.mesh_size:g} m"
         problems.append(complaint("solid.coarse_mesh_size", solid.coarse_mesh_size, allowed))
+    for key, most in _ZONES.items():
+        if not solid.mesh_size <= (half := getattr(solid, key)) <= most:
+            allowed = f"must be at least solid.mesh_size, {solid.mesh_size:g} m, and at most {most}"
+            problems.append(complaint(f"solid.{key}", half, f"{allowed} m"))
     return problems
 
 

@@ -82,6 +82,15 @@ def print_check(study: Study, console: Console) -> None:
     """
     described = describe(study)
     companions = load_companions(study)
+    # whatever may be refused comes before the first line
+    if study.runs:
+        hertz = build.hertz(study)
+        build.scan_meeting(study)
+    forecasts = [
+        (name if one is study else f"{one.name}: {name}", forecast(one, name, build.track(one)))
+        for one in (study, *companions)
+        for name in one.runs
+    ]
     console.print(f"[bold]{study.title}[/bold] ({study.name})")
     if study.description:
         console.print(" ".join(study.description.split()), markup=False)
@@ -94,7 +103,6 @@ def print_check(study: Study, console: Console) -> None:
     console.print(values)
     if study.runs:
         load = float(build.vehicle(study).static_loads[0])
-        hertz = build.hertz(study)
         console.print(
             f"static wheel load {load / 1e3:.2f} kN; "
             f"Hertz: approach {hertz.approach * 1e6:.1f} µm, "
@@ -103,12 +111,9 @@ def print_check(study: Study, console: Console) -> None:
         )
     sizes = Table("run", "dofs", "steps", "expected time (s)")
     times = [0.0]
-    for one in (study, *companions):
-        for name in one.runs:
-            found = forecast(one, name, build.track(one))
-            times.append(found.seconds)
-            label = name if one is study else f"{one.name}: {name}"
-            sizes.add_row(label, str(found.dofs), str(found.steps), f"{found.seconds:.0f}")
+    for label, found in forecasts:
+        times.append(found.seconds)
+        sizes.add_row(label, str(found.dofs), str(found.steps), f"{found.seconds:.0f}")
     if len(times) == 1:
         console.print("no runs: figures of the irregularity only")
         return

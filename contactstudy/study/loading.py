@@ -82,6 +82,11 @@ def load_study(
         raise InputError(f"{path}: is not a TOML file ({error})") from error
     except OSError as error:
         raise InputError(f"{path}: cannot be read ({error.strerror})") from error
+    if "positions" in data:
+        raise InputError(
+            f"study {study}: is a study of positions (table [positions]); only "
+            "'contactstudy check', 'run' and 'reproduce' take it"
+        )
     _resolve_paths(data, path.parent)
     problems = override(data, overrides)
     return parse_study(path.stem, data, problems, main)

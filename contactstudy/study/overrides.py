@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Iterable
-from typing import Any
+from collections.abc import Iterable, Mapping
+from typing import Any, Literal, get_args, get_origin
 
 from contactstudy.study.schema import SECTIONS, SOLVERS
 from contactstudy.study.section import Section
 
 
-def override(data: dict[str, Any], texts: Iterable[str]) -> list[str]:
+def override(
+    data: dict[str, Any], texts: Iterable[str], tables: Mapping[str, type[Section]] = SECTIONS
+) -> list[str]:
     """Set dotted keys of a study file's content, in place.
 
     A key of the file that means nothing beside an overridden one (the seed, once the spectrum
@@ -22,6 +24,8 @@ def override(data: dict[str, Any], texts: Iterable[str]) -> list[str]:
         Content as TOML gives it.
     texts : iterable of str
         ``key=value``; values as in TOML, quotes around text may be left out.
+    tables : mapping of str to type of Section
+        The tables of the file.
 
     Returns
     -------
@@ -30,9 +34,9 @@ def override(data: dict[str, Any], texts: Iterable[str]) -> list[str]:
     """
     problems, given = [], set()
     for text in texts:
-        problems += _override(data, text)
+        problems += _override(data, text, tables)
         given.add(text.partition("=")[0].strip())
-    for name, section in SECTIONS.items():
+    for name, section in tables.items():
         _leave_out(data.get(name), section, name, given)
     runs = data.get("runs")
     for name, run in runs.items() if isinstance(runs, dict) else ():
@@ -55,7 +59,7 @@ def _leave_out(table: Any, model: type[Section], path: str, given: set[str]) -> 
             table.pop(key, None)
 
 
-def _override(data: dict[str, Any], text: str) -> list[str]:
+def _override(data: dict[str, Any], text: str, tables: Mapping[str, type[Section]]) -> list[str]:
     key, equals, value = text.partition("=")
     parts = key.strip().split(".")
     if not equals or not all(parts):
@@ -65,8 +69,21 @@ def _override(data: dict[str, Any], text: str) -> list[str]:
         table = table.setdefault(part, {})
         if not isinstance(table, dict):
             return [f"--set {text}: {key.strip()} goes through a value that is no table"]
-    table[parts[-1]] = _value(value.strip())
+    read = _value(value.strip())
+    if not isinstance(read, str) and len(parts) == 2 and _only_text(tables.get(parts[0]), parts[1]):
+        read = value.strip()  # 60E1 is a profile, not 600
+    table[parts[-1]] = read
     return []
+
+
+def _only_text(model: type[Section] | None, key: str) -> bool:
+    """Whether a key of a table takes nothing but text."""
+    if model is None or key not in model.model_fields:
+        return False
+    kind = model.model_fields[key].annotation
+    return kind is str or (
+        get_origin(kind) is Literal and all(isinstance(v, str) for v in get_args(kind))
+    )
 
 
 def _value(text: str) -> Any:

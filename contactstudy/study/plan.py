@@ -10,7 +10,7 @@ from typing import Any
 from contactstudy.profiles.wheel_body import file_digest
 from contactstudy.provenance import versions
 from contactstudy.study import store
-from contactstudy.study.build import scan_meeting
+from contactstudy.study.build import contact_zone, scan_meeting
 from contactstudy.study.loading import load_companions
 from contactstudy.study.results import IrregularityInfo
 from contactstudy.study.roughness import describe
@@ -71,6 +71,8 @@ def plan_study(study: Study, out_dir: Path) -> Plan:
         if inputs["irregularity"].get(key):  # the content counts, and paths are the machine's
             inputs["irregularity"][key] = Path(inputs["irregularity"][key]).name
     files = dict(described.files)
+    if "wheelset" in inputs:
+        contact_zone(study)  # refused before anything is computed
     section = study.solid.wheel_section
     if digest := file_digest(section):
         files[Path(section).name] = digest

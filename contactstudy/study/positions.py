@@ -162,7 +162,7 @@ def load_positions(study: str | Path, overrides: Iterable[str] = ()) -> Position
             name = table.get(key)
             if isinstance(name, str) and Path(name).suffix:  # relative to the study file
                 table[key] = str(path.parent / name)
-    problems = override(data, overrides)
+    problems = override(data, overrides, {"positions": PositionsTable})
     return _parsed(path.stem, data, problems)
 
 

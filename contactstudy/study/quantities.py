@@ -43,6 +43,7 @@ CoarseMeshSize = Annotated[float, BeforeValidator(Limits("m", at_least=0.002, at
 ModeFrequency = Annotated[float, BeforeValidator(Limits("Hz", above=0.0, at_most=2e4))]
 Frames = Annotated[int, BeforeValidator(Limits("", at_least=0, at_most=1000, whole=True))]
 Penetration = Annotated[float, BeforeValidator(Limits("m", above=0.0, at_most=1e-5))]
+Smoothing = Annotated[float, BeforeValidator(Limits("m", at_least=1e-5, at_most=0.01))]
 CellLength = Annotated[float, BeforeValidator(Limits("m", above=0.0, at_most=0.5))]
 InterfaceModes = Annotated[int, BeforeValidator(Limits("", at_least=3, at_most=60, whole=True))]
 InternalModes = Annotated[int, BeforeValidator(Limits("", at_least=0, at_most=40, whole=True))]

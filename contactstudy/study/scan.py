@@ -34,7 +34,7 @@ class ScanTable(Section):
     wheel: str = ""
     wheel_unit: Unit = ""
     wheel_tape: q.Position = 0.0
-    smoothing: q.Length = 1e-3
+    smoothing: q.Smoothing = 1e-3
     residual_limit: q.Length = 1e-4
 
     @property

@@ -308,3 +308,38 @@ def test_cells_fit_the_supports_unless_their_length_is_given(track, length):
         with pytest.raises(InputError, match=r"solid\.cell_length"):
             solid = {"cell_length": 0.1}
             parse_study("s", {"track": track, "journey": journey, "runs": runs, "solid": solid})
+
+
+def test_a_name_that_looks_like_a_number_stays_a_name():
+    study = load_study("s1002_inclined", ["wheelset.rail_profile=60E1", "track.rail=60E1"])
+    assert (study.wheelset.rail_profile, study.track.rail) == ("60E1", "60E1")
+    positions = load_positions("manchester", ["positions.rail_profile=60E1"])
+    assert positions is not None and positions.table.rail_profile == "60E1"
+
+
+def test_a_study_of_positions_is_named_where_none_is_meant():
+    with pytest.raises(InputError, match=r"is a study of positions \(table \[positions\]\)"):
+        load_study("manchester")
+
+
+@pytest.mark.parametrize(
+    ("setting", "message"),
+    [
+        ("mesh_size=1 um", "must be at least 0.0002 and at most 0.008 m"),
+        ("wheel_frequency=1 MHz", "must be above 0 and at most 20000 Hz"),
+        ("animation_frames=100000", "at most 1000"),
+        (
+            "contact_half_width=30 mm",
+            "must be at least solid.mesh_size, 0.002 m, and at most 0.023 m",
+        ),
+        (
+            "contact_half_length=1 mm",
+            "must be at least solid.mesh_size, 0.002 m, and at most 0.04 m",
+        ),
+    ],
+)
+def test_sizes_that_cannot_be_meshed_are_refused_by_key(setting, message):
+    with pytest.raises(InputError) as error:
+        load_study("point_vs_surface", [f"solid.{setting}"])
+    (problem,) = error.value.problems
+    assert problem.startswith("solid.") and message in problem

@@ -116,3 +116,22 @@ def test_worn_wheel_from_a_file_beside_the_study(tmp_path):
     own, drawn = (build.geometry(load_study(p)) for p in (tmp_path / "own.toml", "s1002_inclined"))
     assert own.touch.wheel_s == pytest.approx(drawn.touch.wheel_s, abs=0.3e-3)
     assert own.pose.lateral == pytest.approx(drawn.pose.lateral, abs=1e-9)
+
+
+def test_a_wheelset_that_has_climbed_its_rail_is_refused():
+    """At -40 mm the left wheel's flange runs on the rail's head."""
+    text = refused("wheelset.lateral_shift=-40 mm")
+    assert text.startswith("wheelset.lateral_shift = -40 mm with a yaw of 0 mrad: the left wheel")
+    assert "it has derailed" in text
+
+
+def test_a_wheelset_too_narrow_for_its_track_names_the_keys():
+    text = refused("wheelset.gauge=2 m")
+    assert "wheelset.gauge = 2 m" in text and "wheelset.flange_backs = 1.36 m" in text
+    assert "inside the rails' crowns; must be at most 50 mm" in text
+
+
+def test_contact_beyond_the_fine_zone_names_the_position():
+    study = loaded("wheelset.lateral_shift=6 mm")
+    with pytest.raises(InputError, match=r"wheelset.lateral_shift = 6 mm .* must end within 31.6"):
+        build.contact_zone(study)
