@@ -1,4 +1,4 @@
-"""Commands: run, check, reproduce, verify, studies.
+"""Commands: run, check, reproduce, verify, export, studies.
 
 Exit status 0, 1 (broke down, or a check fails), 2 (input), 130 (interrupted).
 """
