@@ -9,6 +9,7 @@ from typing import Any
 from rich.console import Console
 from rich.table import Table
 
+from contactstudy.exceptions import InputError
 from contactstudy.study import build
 from contactstudy.study.execution import is_condensed
 from contactstudy.study.loading import load_companions
@@ -84,7 +85,7 @@ def print_check(study: Study, console: Console) -> None:
     companions = load_companions(study)
     # whatever may be refused comes before the first line
     if study.runs:
-        hertz = build.hertz(study)
+        contact = _contact(study)
         build.scan_meeting(study)
     forecasts = [
         (name if one is study else f"{one.name}: {name}", forecast(one, name, build.track(one)))
@@ -102,13 +103,7 @@ def print_check(study: Study, console: Console) -> None:
         values.add_row(key, _text(value), units.get(key, ""))
     console.print(values)
     if study.runs:
-        load = float(build.vehicle(study).static_loads[0])
-        console.print(
-            f"static wheel load {load / 1e3:.2f} kN; "
-            f"Hertz: approach {hertz.approach * 1e6:.1f} µm, "
-            f"tangent stiffness {hertz.tangent_stiffness / 1e9:.3f} GN/m",
-            soft_wrap=True,
-        )
+        console.print(contact, soft_wrap=True)
     sizes = Table("run", "dofs", "steps", "expected time (s)")
     times = [0.0]
     for label, found in forecasts:
@@ -122,6 +117,23 @@ def print_check(study: Study, console: Console) -> None:
     console.print(
         f"about {seconds:.0f} s with two runs at a time, figures and report not counted",
         soft_wrap=True,
+    )
+
+
+def _contact(study: Study) -> str:
+    """Static load and Hertz's contact, which conformal profiles do not have."""
+    load = float(build.vehicle(study).static_loads[0])
+    text = f"static wheel load {load / 1e3:.2f} kN; "
+    try:
+        hertz = build.hertz(study)
+    except InputError as error:
+        points = [run for run in study.runs.values() if isinstance(run, PointRun)]
+        if any(run.law == "hertz" or run.k_r == "hertz_tangent" for run in points):
+            raise
+        return f"{text}{error}"
+    return (
+        f"{text}Hertz: approach {hertz.approach * 1e6:.1f} µm, "
+        f"tangent stiffness {hertz.tangent_stiffness / 1e9:.3f} GN/m"
     )
 
 
