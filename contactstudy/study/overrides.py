@@ -38,11 +38,6 @@ def override(
         given.add(text.partition("=")[0].strip())
     for name, section in tables.items():
         _leave_out(data.get(name), section, name, given)
-    solid = data.get("solid")
-    if "solid.section" in given and isinstance(solid, dict) and solid.get("section") == "half":
-        for name in ("wheelset", "scan"):
-            if not any(key.startswith(f"{name}.") for key in given):
-                data.pop(name, None)
     runs = data.get("runs")
     for name, run in runs.items() if isinstance(runs, dict) else ():
         if isinstance(run, dict) and run.get("solver") in SOLVERS:

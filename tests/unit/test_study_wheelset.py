@@ -118,11 +118,6 @@ def test_worn_wheel_from_a_file_beside_the_study(tmp_path):
     assert own.pose.lateral == pytest.approx(drawn.pose.lateral, abs=1e-9)
 
 
-def test_a_half_section_by_override_leaves_the_files_position_out():
-    assert loaded("solid.section=half").solid.section == "half"
-    assert "applies only with" in refused("solid.section=half", "wheelset.yaw=1 mrad")
-
-
 def test_a_wheelset_that_has_climbed_its_rail_is_refused():
     """At -40 mm the left wheel's flange runs on the rail's head."""
     text = refused("wheelset.lateral_shift=-40 mm")
