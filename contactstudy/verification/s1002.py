@@ -31,6 +31,9 @@ rail's radius goes from 300 to 80 mm, which 2 mm elements flatten. A study of po
 """
 
 
+_SOURCE = "half-space, Love (1929)"
+
+
 def solid_press() -> CaseResult:
     """Static press at four loads, solid bodies beside the half-space."""
     study = load_study("s1002_inclined")
@@ -52,23 +55,23 @@ def solid_press() -> CaseResult:
         ellipse = contact_ellipse(points, solution.forces)
         peak = float(points.nodal_pressure(solution.forces).max())
         own, theirs = approach - far * load, reference.travel
-        at, source = f"at {load / 1e3:.1f} kN", "half-space, Love (1929)"
+        at = f"at {load / 1e3:.1f} kN"
         checks += [
-            Check(f"semi-axis along {at}", ellipse.along, patch.along, "m", source, 0.03),
-            Check(f"semi-axis across {at}", ellipse.across, patch.across, "m", source, 0.03),
+            _check(f"semi-axis along {at}", ellipse.along, patch.along, "mm", 0.03),
+            _check(f"semi-axis across {at}", ellipse.across, patch.across, "mm", 0.03),
             Check(
                 f"centre of pressure {at}",
-                ellipse.centre[1],
-                patch.centre.y,
-                "m",
-                source,
+                1e3 * ellipse.centre[1],
+                1e3 * patch.centre.y,
+                "mm",
+                _SOURCE,
                 0.06,
-                scale=patch.across,
+                scale=1e3 * patch.across,
             ),
-            Check(f"peak pressure {at}", peak, patch.peak_pressure, "Pa", source, None),
+            _check(f"peak pressure {at}", peak, patch.peak_pressure, "MPa", None),
         ]
         if load < LOADS[-1]:
-            checks.append(Check(f"approach {at}", own, theirs, "m", source, 0.02))
+            checks.append(_check(f"approach {at}", own, theirs, "µm", 0.02))
         secant = load / own * 1e-9
         rows.append((load / 1e3, approach * 1e6, own * 1e6, theirs * 1e6, secant))
     table = Table(
@@ -83,6 +86,14 @@ def solid_press() -> CaseResult:
         tuple(checks),
         tables=(table,),
     )
+
+
+def _check(
+    quantity: str, computed: float, reference: float, unit: str, band: float | None
+) -> Check:
+    """A check of SI values, shown in a handy unit."""
+    factor = {"mm": 1e3, "µm": 1e6, "MPa": 1e-6}[unit]
+    return Check(quantity, factor * computed, factor * reference, unit, _SOURCE, band)
 
 
 def _half_space(study: Study, placed: Geometry, load: float) -> WheelPress:
