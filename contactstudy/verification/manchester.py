@@ -11,17 +11,14 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Literal
-
-from scipy.optimize import brentq
 
 from contactstudy.contact.patch import Patch
 from contactstudy.contact.patches import press_wheel
 from contactstudy.contact.pose import PlacedWheel, Pose
+from contactstudy.contact.wheelset import Side, Wheelset
 from contactstudy.profiles.curve import rail_curve, wheel_curve
 from contactstudy.verification.friction import vertical_friction
 
-Side = Literal["left", "right"]
 RAIL = "UIC60-Manchester"
 
 INCLINATION = math.atan(1 / 40)
@@ -103,17 +100,12 @@ class ManchesterRow:
 
 
 @lru_cache(maxsize=1)
-def gauge_point() -> float:
-    """Y of the rail 14 mm below its top on the gauge side, from the crown [m] in track axes."""
-    rail, pose = rail_curve(RAIL), Pose(INCLINATION)
-    # the highest point lies on the crown's arc where its normal is vertical
-    top = float(pose.track_of_rail(rail.point(INCLINATION / float(rail.curvature(0.0))))[1])
-
-    def height(s: float) -> float:
-        return float(pose.track_of_rail(rail.point(s))[1]) - top + GAUGE_DEPTH
-
-    s = brentq(height, rail.s_range[0], -0.03, xtol=1e-15)
-    return float(pose.track_of_rail(rail.point(s))[0])
+def benchmark_wheelset() -> Wheelset:
+    """The benchmark's wheelset on its track."""
+    return Wheelset(
+        wheel_curve("S1002"), rail_curve(RAIL), RADIUS, INCLINATION, GAUGE, GAUGE_DEPTH,
+        FLANGE_BACKS, TAPE_LINE,
+    )  # fmt: skip
 
 
 def benchmark_pose(case: int, wheel: Side) -> Pose:
@@ -130,13 +122,8 @@ def benchmark_pose(case: int, wheel: Side) -> Pose:
     Pose
         In this rail's axes, Y to the field side.
     """
-    shift, yaw, roll = 0.5e-3 * (case - 1), 1.2e-3 * (case - 1), ROLL[case - 1]
-    side = 1.0 if wheel == "right" else -1.0
-    # tape circle's lowest point, from the middle of the wheelset: turned by roll, then by yaw
-    y = side * (FLANGE_BACKS / 2 + TAPE_LINE) * math.cos(roll) - RADIUS * math.sin(roll)
-    lateral = side * (shift + y * math.cos(yaw)) - GAUGE / 2 + gauge_point()
-    # z down and, on the left, Y to the left: turns change their signs
-    return Pose(INCLINATION, lateral, -side * roll, side * yaw)
+    shift, yaw = 0.5e-3 * (case - 1), 1.2e-3 * (case - 1)
+    return benchmark_wheelset().pose(wheel, shift, yaw, ROLL[case - 1])
 
 
 def benchmark_patches(

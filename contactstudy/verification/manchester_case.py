@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from contactstudy.contact.wheelset import Side
 from contactstudy.verification.check import CaseResult, Check, Plot, Table, curve
-from contactstudy.verification.manchester import ManchesterRow, Side, manchester_rows
+from contactstudy.verification.manchester import ManchesterRow, manchester_rows
 
 SOURCE = "CONTACT 25.2, published reference output"
 # case: approach [m], peak pressure [Pa], area [m^2], |y| on the rail [m], left wheel

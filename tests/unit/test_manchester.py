@@ -15,7 +15,7 @@ from contactstudy.verification.manchester import (
     RADIUS,
     RAIL,
     benchmark_pose,
-    gauge_point,
+    benchmark_wheelset,
     manchester_rows,
 )
 
@@ -40,12 +40,13 @@ def test_rail_is_the_benchmarks():
 
 
 def test_wheels_stand_where_gauge_and_flange_backs_put_them():
+    gauge_point = benchmark_wheelset().gauge_point()
     # 14 mm below the top of rail, 43.0326 mm to the gauge side of the file's origin
-    assert gauge_point() == pytest.approx(7.4917e-3 - 43.0326e-3, abs=1e-6)
+    assert gauge_point == pytest.approx(7.4917e-3 - 43.0326e-3, abs=1e-6)
     centred = benchmark_pose(1, "left")
     assert centred == benchmark_pose(1, "right")
     # tape circles 1500 mm apart, gauge faces 1435 mm
-    assert centred.lateral - gauge_point() == pytest.approx((1.500 - 1.435) / 2, abs=1e-12)
+    assert centred.lateral - gauge_point == pytest.approx((1.500 - 1.435) / 2, abs=1e-12)
     left, right = benchmark_pose(11, "left"), benchmark_pose(11, "right")
     assert right.yaw == -left.yaw == pytest.approx(12e-3)
     assert right.roll == -left.roll == pytest.approx(3.554e-4)
