@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 
 from contactstudy import integrators
 from contactstudy.contact.hertz import HertzContact, contact_modulus, hertz_contact
 from contactstudy.contact.laws import ContactLaw, HertzSpring, LinearSpring, RigidContact
+from contactstudy.contact.pose import Pose
 from contactstudy.contact.press import tangent_stiffness
 from contactstudy.exceptions import InputError
+from contactstudy.profiles.curve import ProfileCurve
 from contactstudy.profiles.rail import rail_profile
 from contactstudy.profiles.wheel_body import wheel_dimensions
 from contactstudy.scans import Meeting
@@ -64,11 +68,23 @@ def geometry(study: Study) -> Geometry | None:
     """Profiles and position of the wheel; None for half sections, centred and upright."""
     if study.solid.section == "half":
         return None
+    drawn, pose = _position(study)
+    return _geometry(*study.scan.curves(*drawn), study.vehicle.wheel_radius, pose)
+
+
+def _position(study: Study) -> tuple[tuple[ProfileCurve, ProfileCurve], Pose]:
+    """Drawn profiles of rail and wheel, and the position of the wheel that they give.
+
+    Scans seldom show gauge face and flange back, so they do not change the position.
+    """
     drawn = study.wheelset.curves(study.track.rail)
-    radius = study.vehicle.wheel_radius
-    # scans seldom show gauge face and flange back, so the drawn profiles give the position
-    pose = study.wheelset.pose(*drawn, radius)
-    return Geometry(*study.scan.curves(*drawn), radius, pose)
+    return drawn, study.wheelset.pose(*drawn, study.vehicle.wheel_radius)
+
+
+@lru_cache(maxsize=4)
+def _geometry(rail: ProfileCurve, wheel: ProfileCurve, radius: float, pose: Pose) -> Geometry:
+    # one object, so that its first touch is searched for once
+    return Geometry(rail, wheel, radius, pose)
 
 
 def scan_meeting(study: Study) -> Meeting | None:
@@ -81,11 +97,9 @@ def scan_meeting(study: Study) -> Meeting | None:
     """
     if study.solid.section == "half" or not study.scan.used:
         return None
-    drawn = study.wheelset.curves(study.track.rail)
-    radius, solid = study.vehicle.wheel_radius, study.solid
-    pose = study.wheelset.pose(*drawn, radius)
-    zone = solid.contact_half_length, solid.contact_half_width
-    return study.scan.touch(*drawn, radius, pose, *zone)
+    drawn, pose = _position(study)
+    zone = study.solid.contact_half_length, study.solid.contact_half_width
+    return study.scan.touch(*drawn, study.vehicle.wheel_radius, pose, *zone)
 
 
 def contact_zone(study: Study) -> tuple[float, float]:
