@@ -16,6 +16,7 @@ from contactstudy.resources import resource
 from contactstudy.study import checks
 from contactstudy.study.messages import complaint, did_you_mean, from_validation, unknown
 from contactstudy.study.overrides import override
+from contactstudy.study.paths import resolve_paths
 from contactstudy.study.results import IRREGULARITY_GROUP
 from contactstudy.study.scan import PATHS as SCAN_PATHS
 from contactstudy.study.schema import SECTIONS, SOLVERS, Study
@@ -233,22 +234,9 @@ def _resolve_paths(data: dict[str, Any], base: Path) -> None:
         data["companions"] = [
             str(base / c) if isinstance(c, str) and (base / c).is_file() else c for c in companions
         ]
-    table = data.get("irregularity")
-    if isinstance(table, dict):
-        for key in _PATHS:
-            if isinstance(table.get(key), str) and table[key]:
-                table[key] = str(base / table[key])
-    table = data.get("scan")
-    if isinstance(table, dict):
-        for key in SCAN_PATHS:
-            if isinstance(table.get(key), str) and table[key]:
-                table[key] = str(base / table[key])
-    table = data.get("wheelset")
-    if isinstance(table, dict):
-        for key in WHEELSET_PATHS:
-            name = table.get(key)
-            if isinstance(name, str) and Path(name).suffix:  # not the name of a drawn profile
-                table[key] = str(base / name)
+    resolve_paths(data.get("irregularity"), _PATHS, base)
+    resolve_paths(data.get("scan"), SCAN_PATHS, base)
+    resolve_paths(data.get("wheelset"), WHEELSET_PATHS, base, or_name=True)
     solid = data.get("solid")
     section = solid.get("wheel_section") if isinstance(solid, dict) else None
     if isinstance(section, str) and section.endswith(".toml"):

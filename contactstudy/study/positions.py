@@ -20,14 +20,14 @@ from contactstudy.study import quantities as q
 from contactstudy.study.loading import find_study
 from contactstudy.study.messages import complaint, from_validation, unknown
 from contactstudy.study.overrides import override
+from contactstudy.study.paths import resolve_paths
 from contactstudy.study.section import Section
-from contactstudy.study.wheelset import off_track
+from contactstudy.study.wheelset import PATHS, off_track
 from contactstudy.units import Limits, UnitError, to_si
 
 _RANGE = re.compile(r"(.+?)\s+to\s+(.+?)\s+by\s+(.+)")
 _MOST = 1001
 _TOP_LEVEL = ("title", "description", "positions")
-_PATHS = ("wheel_profile", "rail_profile")
 
 
 @dataclass(frozen=True)
@@ -131,7 +131,7 @@ class PositionsStudy:
     def config(self) -> dict[str, Any]:
         """Table as plain data in SI; of paths the file's name only."""
         values = self.table.resolved()
-        return {k: Path(v).name if k in _PATHS else v for k, v in values.items()}
+        return {k: Path(v).name if k in PATHS else v for k, v in values.items()}
 
 
 def load_positions(study: str | Path, overrides: Iterable[str] = ()) -> PositionsStudy | None:
@@ -156,12 +156,7 @@ def load_positions(study: str | Path, overrides: Iterable[str] = ()) -> Position
         return None  # `load_study` says what is wrong
     if "positions" not in data:
         return None
-    table = data["positions"]
-    if isinstance(table, dict):
-        for key in _PATHS:
-            name = table.get(key)
-            if isinstance(name, str) and Path(name).suffix:  # relative to the study file
-                table[key] = str(path.parent / name)
+    resolve_paths(data["positions"], PATHS, path.parent, or_name=True)
     problems = override(data, overrides, {"positions": PositionsTable})
     return _parsed(path.stem, data, problems)
 
