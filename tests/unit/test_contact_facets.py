@@ -47,7 +47,9 @@ def test_candidates_of_a_placed_wheel(wheel, size, inclination, lateral, yaw, ro
     for a in (approach, 0.3 * approach):
         overlapping = np.unique(points.facet[points.gap < a * points.normal_z])
         assert np.all(np.isin(overlapping, candidates.quads(a)))
-    assert len(candidates.quads(-1e-3)) == 0
+    # above a box's lower edge by more than its height, 2 mm and a facet of 0.5 mm with paddings,
+    # there is nothing; 1 mm suffices only where the contact is not steep
+    assert len(candidates.quads(-3e-3)) == 0
 
 
 @pytest.mark.parametrize(("lateral", "yaw"), [(0.0, 0.0), (4e-3, 5e-3), (-5e-3, -0.012)])
