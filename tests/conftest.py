@@ -1,7 +1,15 @@
-"""One BLAS thread in the tests, as in the program's workers: set before NumPy is loaded."""
+"""What holds for all tests: one BLAS thread, and the same hypothesis examples in every run."""
 
 import os
 
+from hypothesis import settings
+
 from contactstudy.sweep import ONE_THREAD
 
+# as in the program's workers; before NumPy is loaded
 os.environ.update(ONE_THREAD)
+
+# times of a shared machine are no property of the code, so there is no deadline
+settings.register_profile("repeatable", derandomize=True, deadline=None)
+settings.register_profile("random", derandomize=False, deadline=None, print_blob=True)
+settings.load_profile("repeatable")  # pytest --hypothesis-profile loads another one after this

@@ -43,7 +43,7 @@ def augmented(seed: int, n: int, rank: int):  # type: ignore[no-untyped-def]
 
 
 @given(st.integers(0, 10**6))
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=50)
 def test_two_points_equal_brute_force(seed: int) -> None:
     rng = np.random.default_rng(seed)
     W = np.array([[1.0, 0.0], [0.0, 1.0]]) + 0.9 * rng.random() * np.array([[0, 1.0], [1.0, 0]])
@@ -54,7 +54,7 @@ def test_two_points_equal_brute_force(seed: int) -> None:
 
 
 @given(st.integers(0, 10**6), st.integers(1, 6))
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 def test_gaps_equal_brute_force(seed: int, n: int) -> None:
     W, gap, _, solution, _ = augmented(seed, n, n + 2)
     expected = W @ brute_force(W, gap)
@@ -62,7 +62,7 @@ def test_gaps_equal_brute_force(seed: int, n: int) -> None:
 
 
 @given(st.integers(0, 10**6), st.integers(1, 30), st.integers(1, 30))
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 def test_complementarity(seed: int, n: int, rank: int) -> None:
     W, gap, _, solution, overlap = augmented(seed, n, rank)
     g, slack = gap + W @ solution.forces, TOLERANCE + 1e-13 * np.abs(W @ solution.forces).max()

@@ -71,7 +71,7 @@ SHAPES = {
     yaw=st.floats(-0.03, 0.03),
     penetration=st.floats(1e-7, 1e-3),
 )
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 def test_candidates_contain_all_that_penetrates(
     seed, lower, upper, crown, noise, shift, roll, yaw, penetration
 ):

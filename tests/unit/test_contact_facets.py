@@ -33,7 +33,7 @@ RADIUS = 0.46
     roll=st.floats(-5e-3, 5e-3),
     approach=st.floats(1e-7, 2e-4),
 )
-@settings(max_examples=12, deadline=None)
+@settings(max_examples=12)
 def test_candidates_of_a_placed_wheel(wheel, size, inclination, lateral, yaw, roll, approach):
     pose = Pose(inclination, lateral, roll, yaw)
     curve = WHEELS[wheel]

@@ -54,7 +54,7 @@ FLEXIBILITY = {size: flexibility(points) for size, (points, _) in CASES.items()}
     st.integers(0, 10**6),
     st.floats(0.0, 30e-6),
 )
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 def test_candidates_contain_the_contact_set(
     size: float, approach: float, seed: int, roughness: float
 ) -> None:
@@ -101,7 +101,7 @@ def test_surface_without_facets_is_refused() -> None:
 
 
 @given(st.floats(-0.02, 0.02), st.floats(-0.02, 0.02), st.floats(-1.0, 1.0))
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=15)
 def test_first_touch_of_facetted_spheres(dx: float, dy: float, lift: float) -> None:
     lower = trimesh.creation.icosphere(subdivisions=3, radius=0.3)
     upper = trimesh.creation.icosphere(subdivisions=3, radius=0.2)

@@ -33,7 +33,7 @@ def brute_force(M: np.ndarray, gap: np.ndarray) -> np.ndarray:
 
 
 @given(st.integers(0, 10**6), st.integers(1, 7), st.integers(1, 7))
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 def test_equals_brute_force(seed: int, n: int, rank: int) -> None:
     M, gap = problem(seed, n, rank)
     solution = contact_forces(M, gap)
@@ -44,7 +44,7 @@ def test_equals_brute_force(seed: int, n: int, rank: int) -> None:
 
 
 @given(st.integers(0, 10**6), st.integers(1, 60), st.integers(1, 60), st.booleans())
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 def test_conditions_hold_and_no_tension(seed: int, n: int, rank: int, warm: bool) -> None:
     M, gap = problem(seed, n, rank)
     guess = np.random.default_rng(seed + 1).random(n) < 0.5 if warm else None
@@ -67,7 +67,7 @@ def test_equals_nonnegative_least_squares() -> None:
 
 
 @given(st.integers(0, 10**6), st.integers(1, 30))
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 def test_descent_comes_to_the_same_end(seed: int, n: int) -> None:
     # the safeguard against cycling, switched on from the first exchange
     M, gap = problem(seed, n, n)

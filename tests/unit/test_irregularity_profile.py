@@ -39,7 +39,7 @@ def test_kernels_against_the_sum_term_by_term(jitter, derivative):
     assert error < 2e-11  # phases of up to 6e4 rad carry a rounding error of 1e-11
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(
     seed=st.integers(0, 2**32),
     jitter=st.booleans(),

@@ -49,7 +49,7 @@ def without(scan, faces):
     s=st.floats(-0.02, 0.02),
     half=st.tuples(st.floats(2e-3, 8e-3), st.floats(2e-3, 8e-3)),
 )
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=15)
 def test_holes_are_found_where_they_are(body, seed, x, s, half):
     """Against points of the zone, each looked for in every triangle."""
     rng = np.random.default_rng(seed)
