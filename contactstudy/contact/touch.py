@@ -139,7 +139,8 @@ def _clearances(lower: Array, upper: Array) -> tuple[Array, Array]:
     """
     p, q = lower[:, :, None, :2], upper[:, None, :, :2]
     r, s = np.roll(lower, -1, axis=1)[:, :, None, :2] - p, np.roll(upper, -1, 1)[:, None, :, :2] - q
-    with np.errstate(divide="ignore", invalid="ignore"):
+    # edges all but parallel cross far outside both triangles, or at infinity: no corner
+    with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
         t = _cross(q - p, s) / _cross(r, s)
         crossing = (p + t[..., None] * r).reshape(len(lower), 9, 2)
         corners = np.concatenate([upper[:, :, :2], lower[:, :, :2], crossing], axis=1)
