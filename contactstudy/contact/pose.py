@@ -124,7 +124,7 @@ class PlacedWheel:
         InputError
             If points lie outside the rolling circle.
         """
-        c, n = self.curve.point(s), self.curve.normal(s)
+        c, n = self.curve.point_and_normal(s)
         local = self.radius - c[:, 1]
         square = local**2 - x**2
         if np.any(square <= 0) or np.any(local <= 0):
@@ -150,7 +150,7 @@ class PlacedWheel:
         is so steep that there is no such place, the circle cannot touch, and the place nearest
         to it is returned.
         """
-        c, n = self.curve.point(s), self.curve.normal(s)
+        c, n = self.curve.point_and_normal(s)
         r_xx, r_xy, r_xz = self.pose.to_rail[0]
         sine, cosine = -r_xx * n[:, 1], r_xz * n[:, 1]
         share = -r_xy * n[:, 0] / np.hypot(sine, cosine)

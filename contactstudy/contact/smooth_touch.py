@@ -74,11 +74,12 @@ def smooth_touch(wheel: PlacedWheel, rail: ProfileCurve, tolerance: float = 1e-1
     vertical = wheel.pose.vertical
     # from so high above that nothing overlaps
     points, _ = wheel.surface(wheel.locus(s), s)
+    samples = points[:, 1:]
     crown = rail.point(np.linspace(*rail.s_range, 101)) @ vertical
-    travel = float((points[:, 1:] @ vertical).min() - crown.max() - 1e-3)
+    travel = float((samples @ vertical).min() - crown.max() - 1e-3)
     low, high = travel, np.inf
     for _ in range(60):
-        best, arc, distance = _nearest(wheel, rail, s, travel)
+        best, arc, distance = _nearest(wheel, rail, s, samples, travel)
         rise = float(rail.normal(arc) @ vertical)
         if abs(distance) <= tolerance or high - low <= tolerance:
             break
@@ -107,16 +108,19 @@ def smooth_touch(wheel: PlacedWheel, rail: ProfileCurve, tolerance: float = 1e-1
 
 
 def _nearest(
-    wheel: PlacedWheel, rail: ProfileCurve, s: Array, travel: float
+    wheel: PlacedWheel, rail: ProfileCurve, s: Array, samples: Array, travel: float
 ) -> tuple[float, float, float]:
-    """Arc length on the wheel, on the rail, and distance at the locus' closest point."""
+    """Arc length on the wheel, on the rail, and distance at the locus' closest point.
+
+    `samples` (n, 2) are the locus' points at s (n,), not lowered, in the rail's (y, z).
+    """
     down = travel * wheel.pose.vertical
 
     def look(s: Array) -> tuple[Array, Array]:
         points, _ = wheel.surface(wheel.locus(s), s)
         return rail.project(points[:, 1:] - down)
 
-    arc, distance = look(s)
+    arc, distance = rail.project(samples - down)
     step = float(s[1] - s[0])
     # a sample lies within half a step of a minimum, whose distance can be this much less
     middle = np.clip(np.arange(len(s)), 1, len(s) - 2)

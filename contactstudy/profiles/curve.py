@@ -71,19 +71,23 @@ class ProfileCurve:
 
     def _frame(self, s: Array) -> Frame:
         """Points, unit tangents and left curvature at s (n,)."""
+        which = np.searchsorted(self._joints[1:-1], s, side="right")
+        if len(s) and which.min() == which.max():
+            return self._piece_frame(int(which[0]), s)
         point, tangent, turn = np.empty((len(s), 2)), np.empty((len(s), 2)), np.empty(len(s))
-        joints = self._joints
-        which = np.clip(np.searchsorted(joints, s, side="right") - 1, 0, len(self.pieces) - 1)
         for k in np.unique(which):
             here = which == k
-            t = s[here] - joints[k]
-            inside = np.clip(t, 0.0, self.pieces[k].length)
-            c, d, turned = self.pieces[k].frame(inside)
-            beyond = t - inside
-            # only the ends are ever left (elsewhere by rounding): straight on
-            point[here], tangent[here] = c + beyond[:, None] * d, d
-            turn[here] = np.where(np.abs(beyond) > 1e-12, 0.0, turned)
+            point[here], tangent[here], turn[here] = self._piece_frame(k, s[here])
         return point, tangent, turn
+
+    def _piece_frame(self, k: int, s: Array) -> Frame:
+        """The same of points on piece k; before the first and after the last on straight lines."""
+        t = s - self._joints[k]
+        inside = np.clip(t, 0.0, self.pieces[k].length)
+        c, d, turned = self.pieces[k].frame(inside)
+        # only the ends are ever left (elsewhere by rounding): straight on
+        beyond = t - inside
+        return c + beyond[:, None] * d, d, np.where(np.abs(beyond) > 1e-12, 0.0, turned)
 
     def point(self, s: ArrayLike) -> Array:
         """Points (..., 2) = (y, z) at arc lengths s (...) [m]."""
@@ -92,10 +96,15 @@ class ProfileCurve:
 
     def normal(self, s: ArrayLike) -> Array:
         """Unit normals (..., 2) out of the body at arc lengths s (...)."""
+        return self.point_and_normal(s)[1]
+
+    def point_and_normal(self, s: ArrayLike) -> tuple[Array, Array]:
+        """`point` and `normal` at arc lengths s (...) [m], at the cost of one of them."""
         t = np.asarray(s, dtype=float)
-        d = self._frame(t.ravel())[1]
+        c, d, _ = self._frame(t.ravel())
         # the tangent turned to the left (up) or to the right (down)
-        return (self._side * np.stack([-d[:, 1], d[:, 0]], axis=-1)).reshape(*t.shape, 2)
+        n = self._side * np.stack([-d[:, 1], d[:, 0]], axis=-1)
+        return c.reshape(*t.shape, 2), n.reshape(*t.shape, 2)
 
     def curvature(self, s: ArrayLike) -> Array:
         """Curvature (...) at arc lengths s (...), positive for a convex body [1/m]."""

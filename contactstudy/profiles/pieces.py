@@ -125,10 +125,18 @@ class PolynomialPath:
 
     def height(self, y: Array, derivative: int = 0) -> Array:
         """z and its derivatives with y [m, 1, 1/m]."""
+        # Horner's scheme
+        terms, x = self._derivatives[derivative], y / self.unit
+        value = np.full_like(x, terms[-1])
+        for term in terms[-2::-1]:
+            value = term + value * x
+        return self.unit ** (1 - derivative) * value
+
+    @cached_property
+    def _derivatives(self) -> list[list[float]]:
+        """Coefficients of the polynomial, its first and its second derivative."""
         polynomial = np.polynomial.Polynomial(self.coefficients)
-        if derivative:
-            polynomial = polynomial.deriv(derivative)
-        return np.asarray(self.unit ** (1 - derivative) * polynomial(y / self.unit))
+        return [polynomial.deriv(k).coef.tolist() for k in range(3)]
 
     def derivatives(self, u: Array) -> tuple[Array, Array, Array]:
         """c, c', c'' at u (n,), each (n, 2)."""
