@@ -16,7 +16,7 @@ Array = NDArray[np.float64]
 Span = tuple[float, float]
 
 # spacing of the look along the wheel's profile, and the deepest overlap looked for [m]
-_LOOK, _DEEPEST = 0.02e-3, 1e-3
+LOOK, DEEPEST = 0.02e-3, 1e-3
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,10 +103,10 @@ class Bodies:
     def _near(self) -> Array:
         """Arc lengths on the wheel that can come into contact."""
         s0, s1 = self.wheel.curve.s_range
-        s = np.linspace(s0, s1, int((s1 - s0) / (10 * _LOOK)) + 2)
+        s = np.linspace(s0, s1, int((s1 - s0) / (10 * LOOK)) + 2)
         gap = self.on_locus(0.0, s).gap
-        close = s[gap < _DEEPEST]
-        return np.arange(max(close[0] - 10 * _LOOK, s0), min(close[-1] + 10 * _LOOK, s1), _LOOK)
+        close = s[gap < DEEPEST]
+        return np.arange(max(close[0] - 10 * LOOK, s0), min(close[-1] + 10 * LOOK, s1), LOOK)
 
     def regions(self, travel: float, join: float, cells: int) -> list[CellGrid]:
         """Grids over the regions where the wheel lowered from first touch overlaps the rail.
@@ -139,7 +139,7 @@ class Bodies:
             lines = slice(run[0], run[-1] + 1)
             low, high = (centre - half)[lines].min(), (centre + half)[lines].max()
             room = 0.05 * (high - low)
-            edge = 0.05 * (s[run[-1]] - s[run[0]]) + _LOOK
+            edge = 0.05 * (s[run[-1]] - s[run[0]]) + LOOK
             grids.append(
                 CellGrid.spanning(
                     self,

@@ -5,12 +5,13 @@ Wheelset's axes for shift, yaw and roll: to the right, clockwise seen from above
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Literal
 
 from scipy.optimize import brentq, minimize_scalar
 
 from contactstudy.contact.pose import PlacedWheel, Pose
-from contactstudy.contact.smooth_touch import smooth_touch
+from contactstudy.contact.smooth_touch import SmoothTouch, smooth_touch
 from contactstudy.exceptions import InputError, NumericalError
 from contactstudy.profiles.curve import ProfileCurve
 from contactstudy.validation import not_negative, positive, raise_if
@@ -106,6 +107,10 @@ class Wheelset:
         """One wheel in its pose."""
         return PlacedWheel(self.wheel, self.radius, self.pose(side, shift, yaw, roll))
 
+    def touch(self, side: Side, shift: float, yaw: float, roll: float) -> SmoothTouch:
+        """First touch of one wheel in its pose; those of the last positions are remembered."""
+        return _touch(self, side, shift, yaw, roll)
+
     def rest_roll(self, shift: float, yaw: float) -> float:
         """Roll at which both wheels just touch their rails [rad].
 
@@ -117,8 +122,8 @@ class Wheelset:
 
         def misfit(roll: float) -> float:
             # heights of the axle's middle by either wheel: h = z_tape +- half sin(roll) + R cos
-            down = {s: smooth_touch(self.placed(s, shift, yaw, roll), self.rail) for s in SIDES}
-            travel = down["left"].travel - down["right"].travel
+            down = {side: self.touch(side, shift, yaw, roll).travel for side in SIDES}
+            travel = down["left"] - down["right"]
             return travel + 2.0 * self.half * math.sin(roll)
 
         start = misfit(0.0)
@@ -135,3 +140,8 @@ class Wheelset:
             f"wheelset at a shift of {shift:g} m and a yaw of {yaw:g} rad: no roll below "
             f"{_LARGEST_ROLL} rad lets both wheels touch"
         )
+
+
+@lru_cache(maxsize=1024)
+def _touch(wheelset: Wheelset, side: Side, shift: float, yaw: float, roll: float) -> SmoothTouch:
+    return smooth_touch(wheelset.placed(side, shift, yaw, roll), wheelset.rail)

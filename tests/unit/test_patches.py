@@ -1,6 +1,7 @@
 """Static press of wheel on rail, half-spaces: against Hertz and the dense active set method."""
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -112,3 +113,19 @@ def test_impossible_arguments_are_all_named():
     with pytest.raises(InputError) as found:
         press_wheel(wheel(), RAIL, -1.0, 0.0, cells=4, side=0.0)
     assert len(found.value.problems) == 4
+
+
+def test_cells_fit_into_a_small_patch():
+    """Cells of a given side are made smaller where a patch has less than three across."""
+    h = hertz_contact(20.0, MODULUS, 0.43, 0.3)
+    (patch,) = press_wheel(wheel("cylinder", 0.43), RAIL, 20.0, MODULUS, side=1e-3).patches
+    assert 2 * min(h.semi_axis_x, h.semi_axis_y) < 1e-3  # one cell would cover it
+    # Johnson (1985) eq. (4.22)
+    assert patch.approach == pytest.approx(h.approach, rel=0.05)
+    assert patch.area == pytest.approx(h.area, rel=0.25)
+
+
+@pytest.mark.parametrize(("load", "why"), [(1e-9, "must be larger"), (1e8, "must be smaller")])
+def test_loads_that_half_spaces_cannot_carry(load, why):
+    with pytest.raises(InputError, match=re.escape(f"load = {load:g} N: ") + f".*{why}"):
+        press_wheel(wheel("cylinder", 0.43), RAIL, load, MODULUS)
