@@ -83,9 +83,13 @@ def check(study: str, *, overrides: Overrides = ()) -> None:
     from contactstudy.study.forecast import print_check
     from contactstudy.study.loading import load_study
     from contactstudy.study.positions import load_positions
+    from contactstudy.study.positions_check import check_positions
     from contactstudy.study.positions_terminal import print_positions_check
+    from contactstudy.study.terminal import TerminalReporter
 
     if (positions := load_positions(study, overrides)) is not None:
+        with TerminalReporter(_errors()) as reporter:
+            check_positions(positions, reporter=reporter)
         print_positions_check(positions, Console())
         return
     print_check(load_study(study, overrides), Console())

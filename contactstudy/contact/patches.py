@@ -22,6 +22,9 @@ from contactstudy.validation import positive, raise_if
 
 Array = NDArray[np.float64]
 
+JOIN = 4e-3
+"""Regions of overlap closer than this along the profile are solved together [m]."""
+
 
 def press_wheel(
     wheel: PlacedWheel,
@@ -31,7 +34,7 @@ def press_wheel(
     *,
     cells: int = 64,
     side: float | None = None,
-    join: float = 4e-3,
+    join: float = JOIN,
     tolerance: float = 1e-6,
 ) -> WheelPress:
     """Press a wheel on a rail with a vertical load, frictionless, both half-spaces.

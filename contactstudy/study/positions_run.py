@@ -11,16 +11,16 @@ import numpy as np
 import xarray as xr
 
 from contactstudy.contact.patches import press_wheel
-from contactstudy.contact.wheelset import SIDES, Side
+from contactstudy.contact.wheelset import Side
 from contactstudy.exceptions import InputError, NumericalError
 from contactstudy.profiles.curve import ProfileCurve
 from contactstudy.provenance import provenance, versions
 from contactstudy.study import store
 from contactstudy.study.files import ensure_writable, writing
 from contactstudy.study.positions import PositionsStudy
+from contactstudy.study.positions_check import check_positions, pressings, roll_of
 from contactstudy.study.reporter import Quiet, Reporter
 from contactstudy.study.results import RESULT_FILE
-from contactstudy.study.wheelset import derailed
 
 CSV_FILE = "patches.csv"
 # name -> unit, meaning
@@ -63,19 +63,21 @@ def run_positions(
 
     Raises
     ------
-    InputError, NumericalError
-        If a position cannot be pressed, with its place; the others are kept.
+    InputError
+        Listing all positions that are impossible (`check_positions`), before any is pressed.
+    NumericalError
+        If a position cannot be pressed, with its place; those before it are kept.
     """
     reporter = reporter or Quiet()
     ensure_writable(out_dir)
-    todo: list[tuple[Side, int]] = [
-        (side, k) for side in study.table.wheels for k in range(len(study.positions))
-    ]
+    todo = pressings(study)
+    paths = {one: _path(study, *one, out_dir) for one in todo}
+    check_positions(study, [one for one in todo if _kept(paths[one]) is None], reporter)
     reporter.begin("positions", len(todo))
     rows = []
-    for done, (side, k) in enumerate(todo):
+    for done, one in enumerate(todo):
         reporter.progress("positions", done, len(todo))
-        rows += _kept(study, side, k, out_dir)
+        rows += _kept(paths[one]) or _pressed_and_kept(study, *one, paths[one])
     reporter.end("positions", True)
     data = _dataset(study, rows)
     with writing(out_dir / RESULT_FILE) as path:
@@ -85,20 +87,28 @@ def run_positions(
     return data
 
 
-def _kept(study: PositionsStudy, side: Side, k: int, out_dir: Path) -> list[dict[str, Any]]:
-    """Patches of one wheel at one position, from the store or computed and stored."""
+def _path(study: PositionsStudy, side: Side, k: int, out_dir: Path) -> Path:
+    """Where the patches of one wheel at one position are kept."""
     settings = {
         key: v for key, v in study.config().items() if key not in ("lateral", "yaw", "roll")
     }
     profiles = [_curve_digest(c) for c in (study.wheelset.wheel, study.wheelset.rail)]
     inputs = [side, study.positions[k], settings, profiles, store.code_digest(), versions()]
-    path = out_dir / store.STORE / f"{side}_{k + 1:03d}-{store.digest(inputs)}.json"
+    return out_dir / store.STORE / f"{side}_{k + 1:03d}-{store.digest(inputs)}.json"
+
+
+def _kept(path: Path) -> list[dict[str, Any]] | None:
+    """Patches kept in a file; None if there are none, or the file is damaged."""
     try:
         kept = json.loads(path.read_text("utf-8"))
-        if kept["sha256"] == store.digest(kept["rows"], 64):
-            return list(kept["rows"])
+        return list(kept["rows"]) if kept["sha256"] == store.digest(kept["rows"], 64) else None
     except (OSError, ValueError, KeyError, TypeError):
-        pass  # none, or damaged
+        return None
+
+
+def _pressed_and_kept(
+    study: PositionsStudy, side: Side, k: int, path: Path
+) -> list[dict[str, Any]]:
     rows = _pressed(study, side, k)
     with writing(path) as temporary:
         text = json.dumps({"sha256": store.digest(rows, 64), "rows": rows})
@@ -112,14 +122,10 @@ def _curve_digest(curve: ProfileCurve) -> str:
 
 
 def _pressed(study: PositionsStudy, side: Side, k: int) -> list[dict[str, Any]]:
-    shift, yaw, roll = study.positions[k]
-    table, wheelset = study.table, study.wheelset
+    shift, yaw, _ = study.positions[k]
+    table, wheelset, turned = study.table, study.wheelset, roll_of(study, k)
     where = f"{side} wheel at {1e3 * shift:g} mm and {1e3 * yaw:g} mrad"
     try:
-        turned = wheelset.rest_roll(shift, yaw) if roll is None else roll
-        touching = SIDES if roll is None else (side,)
-        if climbed := derailed(wheelset, touching, shift, yaw, turned):
-            raise InputError(climbed)
         placed = wheelset.placed(side, shift, yaw, turned)
         press = press_wheel(placed, wheelset.rail, table.load, study.modulus, side=table.cell)
     except InputError as error:

@@ -65,5 +65,6 @@ def print_positions_check(study: PositionsStudy, console: Console) -> None:
         table.add_row(f"positions.{key}", shown, units.get(key, ""))
     console.print(table)
     presses = len(study.positions) * len(study.table.wheels)
-    seconds = presses * (0.5 if study.table.roll != "rest" else 2.0)
+    # a roll at rest is searched for once for both wheels
+    seconds = 0.5 * presses + (1.2 * len(study.positions) if study.table.roll == "rest" else 0.0)
     console.print(f"{presses} presses, expected time about {max(seconds, 1):.0f} s")

@@ -9,7 +9,6 @@ from typing import Literal
 import numpy as np
 
 from contactstudy.contact.pose import Pose
-from contactstudy.contact.smooth_touch import smooth_touch
 from contactstudy.contact.wheelset import SIDES, Side, Wheelset
 from contactstudy.exceptions import ContactStudyError, InputError
 from contactstudy.profiles.curve import ProfileCurve, rail_curve, wheel_curve
@@ -157,7 +156,7 @@ def derailed(
     steepest = float(s[np.argmax(slope)])
     problems = []
     for side in sides:
-        touch = smooth_touch(wheelset.placed(side, shift, yaw, roll), wheelset.rail)
+        touch = wheelset.touch(side, shift, yaw, roll)
         if touch.wheel_s < steepest and touch.angle < CLIMBED:
             problems.append(
                 f"the {side} wheel stands on its rail with the flange's tip (contact angle "

@@ -15,6 +15,7 @@ from contactstudy.exceptions import InputError, NumericalError
 from contactstudy.profiles.curve import wheel_curve
 from contactstudy.study import positions_run
 from contactstudy.study.positions import Series, load_positions
+from contactstudy.study.positions_check import check_positions
 from contactstudy.study.positions_run import run_positions
 from contactstudy.units import UnitError
 
@@ -140,12 +141,46 @@ def test_a_worn_profile_from_a_file_beside_the_study(tmp_path):
     assert '"worn.csv"' in worn.attrs["config"]  # and no folder of this machine
 
 
-def test_an_impossible_position_says_where(tmp_path):
-    path = tmp_path / "far.toml"
-    path.write_text(HERTZ.replace('"1 mm"]', '"90 mm"]'))
-    with pytest.raises((InputError, NumericalError), match="right wheel at 90 mm and 0 mrad"):
-        run_positions(load_positions(path), tmp_path / "out")
+def test_a_press_that_breaks_down_says_where(study, tmp_path, monkeypatch):
+    press, calls = positions_run.press_wheel, []
+
+    def breaking(*arguments, **more):
+        calls.append(1)
+        if len(calls) == 2:
+            raise NumericalError("does not settle")
+        return press(*arguments, **more)
+
+    monkeypatch.setattr(positions_run, "press_wheel", breaking)
+    with pytest.raises(NumericalError, match="right wheel at 1 mm and 0 mrad: does not settle"):
+        run_positions(load_positions(study), tmp_path / "out")
     assert len(list((tmp_path / "out" / "runs").glob("*.json"))) == 1  # the first is kept
+
+
+def test_impossible_positions_are_all_found_before_any_is_pressed(tmp_path, capsys):
+    path, out = tmp_path / "far.toml", tmp_path / "out"
+    path.write_text(
+        '[positions]\nlateral = ["0 mm", "1 mm", "30 mm"]\nroll = 0\nwheels = ["right"]\n'
+        'load = "1 GN"\n'
+    )
+    told = []
+    for command in (["check", str(path)], ["run", str(path), "--out", str(out)]):
+        assert cli.main(command) == 2
+        told.append(capsys.readouterr().err)
+    assert told[0] == told[1] and len(told[0].splitlines()) == 2
+    for where, what in (
+        ("0 mm with a yaw of 0 mrad (and at 1 more)", "positions.load = 1e+09 N: presses"),
+        ("30 mm with a yaw of 0 mrad", "stands on its rail with the flange's tip"),
+    ):
+        lines = [x for x in told[0].splitlines() if f"positions.lateral = {where}: " in x]
+        assert len(lines) == 1 and what in lines[0]
+    assert not list((out / "runs").glob("*.json"))
+
+
+def test_no_roll_at_rest_is_found_by_the_check(tmp_path):
+    path = tmp_path / "far.toml"
+    path.write_text(HERTZ.replace("roll = 0\n", "").replace('"1 mm"]', '"90 mm"]'))
+    with pytest.raises(InputError, match=r"positions\.lateral = 90 mm with a yaw of 0 mrad: "):
+        check_positions(load_positions(path))
 
 
 def test_commands(study, tmp_path, capsys):

@@ -1,0 +1,95 @@
+"""Whether the positions of a study are possible, found out before any of them is pressed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from contactstudy.contact.first_press import first_press
+from contactstudy.contact.patch_grid import Bodies
+from contactstudy.contact.patches import JOIN
+from contactstudy.contact.wheelset import SIDES, Side
+from contactstudy.exceptions import ContactStudyError, InputError
+from contactstudy.study.positions import PositionsStudy
+from contactstudy.study.reporter import Quiet, Reporter
+from contactstudy.study.wheelset import complaint_of_position, derailed
+from contactstudy.validation import raise_if
+
+Pressing = tuple[Side, int]
+
+
+def pressings(study: PositionsStudy) -> list[Pressing]:
+    """Side and number of the position of every press, in the order of the results."""
+    return [(side, k) for side in study.table.wheels for k in range(len(study.positions))]
+
+
+def roll_of(study: PositionsStudy, k: int) -> float:
+    """Roll at position k [rad]: the one given, or that at which both wheels touch.
+
+    Raises
+    ------
+    NumericalError
+        If there is none.
+    """
+    shift, yaw, roll = study.positions[k]
+    return study.wheelset.rest_roll(shift, yaw) if roll is None else roll
+
+
+def check_positions(
+    study: PositionsStudy, of: Iterable[Pressing] | None = None, reporter: Reporter | None = None
+) -> None:
+    """Find wheelsets that do not fit, have derailed, or cannot be pressed with the load.
+
+    Parameters
+    ----------
+    study : PositionsStudy
+    of : iterable of (side, int), optional
+        Presses that are asked for; all without it.
+    reporter : Reporter, optional
+
+    Raises
+    ------
+    InputError
+        Listing all of them; the same complaint about several positions once.
+    """
+    reporter = reporter or Quiet()
+    sides_at: dict[int, list[Side]] = {}
+    for side, k in pressings(study) if of is None else of:
+        sides_at.setdefault(k, []).append(side)
+    found: dict[str, list[str]] = {}
+    reporter.begin("checks", len(sides_at))
+    for done, (k, sides) in enumerate(sides_at.items()):
+        reporter.progress("checks", done, len(sides_at))
+        for problem in _wrong_at(study, k, sides):
+            shift, yaw, _ = study.positions[k]
+            where = complaint_of_position("positions.lateral", shift, yaw)
+            found.setdefault(problem, []).append(where)
+    reporter.end("checks", not found)
+    raise_if(
+        f"{at[0]}{f' (and at {len(at) - 1} more)' if len(at) > 1 else ''}: {problem}"
+        for problem, at in found.items()
+    )
+
+
+def _wrong_at(study: PositionsStudy, k: int, sides: list[Side]) -> list[str]:
+    shift, yaw, given = study.positions[k]
+    wheelset, rail = study.wheelset, study.wheelset.rail
+    try:
+        roll = roll_of(study, k)
+        climbed = derailed(wheelset, SIDES if given is None else tuple(sides), shift, yaw, roll)
+    except ContactStudyError as error:
+        return _problems(error)
+    if climbed:
+        return climbed
+    problems = []
+    for side in sides:
+        touch = wheelset.touch(side, shift, yaw, roll)
+        bodies = Bodies(wheelset.placed(side, shift, yaw, roll), rail, touch, study.modulus)
+        try:
+            first_press(bodies, study.table.load, JOIN)
+        except ContactStudyError as error:
+            problems += [f"{side} wheel: positions.{problem}" for problem in _problems(error)]
+    return problems
+
+
+def _problems(error: ContactStudyError) -> list[str]:
+    return list(error.problems) if isinstance(error, InputError) else [str(error)]
