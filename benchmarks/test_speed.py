@@ -27,6 +27,7 @@ from contactstudy.solvers.point import point_contact
 from contactstudy.solvers.surface import surface_contact
 from contactstudy.study import build
 from contactstudy.study.loading import load_study
+from contactstudy.study.placing import geometry
 from contactstudy.track.beam import BeamTrack
 from contactstudy.track.model import Track
 from contactstudy.track.solid import SolidTrack, solid_rail
@@ -107,7 +108,7 @@ def test_surface_step(benchmark):
 def test_surface_step_of_a_whole_section(benchmark):
     study = load_study("s1002_inclined")
     track = build.solid_track(study, build.track(study))
-    made, placed = build.wheel(study), build.geometry(study)
+    made, placed = build.wheel(study), geometry(study)
 
     def run():
         return surface_contact(

@@ -2,7 +2,8 @@
 
 The right half of the section is three mapped blocks, head, web and foot. The columns of the
 web run on through head and foot, so the mesh conforms; on the running surface the columns
-stand at a fixed spacing around the crown and grow towards the gauge corner.
+stand at a fixed spacing in the fine zone and grow away from it. Where that zone goes round the
+gauge corner the head's upper edge goes on down the side face.
 """
 
 from dataclasses import dataclass
@@ -17,6 +18,9 @@ from contactstudy.solids.mapped import along, graded, join, transfinite
 
 Array = NDArray[np.float64]
 IntArray = NDArray[np.int64]
+
+_LOWEST = 0.010
+"""m, by which the fine running surface ends above the head's lower corner at least."""
 
 
 @dataclass(frozen=True)
@@ -55,19 +59,29 @@ class SectionMesh:
         return section_properties(self.nodes, self.quads, poisson_ratio, symmetric=self.symmetric)
 
 
-def _block_corners(profile: RailProfile) -> list[tuple[float, float]]:
+def _block_corners(profile: RailProfile, round_corner: bool) -> list[tuple[float, float]]:
     """Where the blocks' corners sit on the right half of the outline, from top to bottom."""
     z = profile.heights
-    gauge_corner = 0.9 * profile.half_width(np.array([z["side_top"]]))[0]
-    levels = [
-        0.5 * (z["side_bottom"] + z["head_corner"]),
-        z["head_bottom_axis"],
-        z["foot_top_axis"],
-    ]
-    half = profile.half_width(np.array(levels))
+    foot_web = [z["head_bottom_axis"], z["foot_top_axis"]]
+    if round_corner:
+        # the head's lower corner, and the middle of its underside: the outline is straight there,
+        # so one element has an angle of 180 degrees
+        levels = [
+            0.5 * (z["side_bottom"] + z["head_corner"]),
+            0.5 * (z["head_corner"] + z["head_web"]),
+        ]
+        half = profile.half_width(np.array(levels))
+        head = list(zip(half.tolist(), levels, strict=True))
+    else:
+        shoulder = float(0.9 * profile.half_width(np.array([z["side_top"]]))[0])
+        level = 0.5 * (z["side_bottom"] + z["head_corner"])
+        head = [
+            (shoulder, float(profile.running_surface(shoulder))),
+            (float(profile.half_width(np.array([level]))[0]), level),
+        ]
     return [
-        (gauge_corner, float(profile.running_surface(gauge_corner))),
-        *zip(half.tolist(), levels, strict=True),
+        *head,
+        *zip(profile.half_width(np.array(foot_web)).tolist(), foot_web, strict=True),
         # middle of the rounding of the foot's upper edge: the nearest point to its sharp corner
         (0.5 * profile.foot_width, z["foot_edge_top"] + 0.003),
         (profile.bearing_half_width, z["foot_bottom"]),
@@ -83,7 +97,7 @@ def fine_reach(profile: RailProfile, size: float) -> float:
     size : float
         Element size at the running surface in m.
     """
-    return _Outline.of(profile).top_length - size
+    return _Outline.of(profile, round_corner=True).top_length - size - _LOWEST
 
 
 def rail_section_mesh(
@@ -127,9 +141,9 @@ def rail_section_mesh(
     problems = []
     if not 0 < size <= 0.008:
         problems.append(f"mesh size = {size} m: must be above 0 and at most 0.008 m")
-    if not 0 < contact_half_width <= 0.025:
+    if not 0 < contact_half_width <= 0.028:
         problems.append(
-            f"contact_half_width = {contact_half_width} m: must be above 0 and at most 0.025 m"
+            f"contact_half_width = {contact_half_width} m: must be above 0 and at most 0.028 m"
         )
     if symmetric and contact_centre != 0.0:
         problems.append(f"contact_centre = {contact_centre} m: must be 0 m in a half section")
@@ -139,19 +153,24 @@ def rail_section_mesh(
         problems.append(f"growth = {growth}: must be above 1 and at most 3")
     if problems:
         raise InputError(problems)
-    outline = _Outline.of(profile)
     low, high = contact_centre - contact_half_width, contact_centre + contact_half_width
-    reach = outline.top_length - size
+    reach = fine_reach(profile, size)
     if max(-low, high) > reach:
         raise InputError(
             f"contact_centre = {contact_centre} m, contact_half_width = {contact_half_width} m: "
             f"the fine zone must lie within {reach:.4f} m of the crown on both sides"
         )
     grading = _Grading(size, coarse, growth)
+
+    def half(low: float, high: float) -> SectionMesh:
+        outline = _Outline.of(profile, round_corner=False)
+        if high > outline.top_length - size:
+            outline = _Outline.of(profile, round_corner=True)
+        return _half(outline, grading, low, high)
+
     if symmetric:
-        return _half(outline, grading, -high, high)
-    right = _half(outline, grading, low, high)
-    return _whole(_half(outline, grading, -high, -low), right)
+        return half(-high, high)
+    return _whole(half(-high, -low), half(low, high))
 
 
 @dataclass(frozen=True)
@@ -192,13 +211,16 @@ class _Outline:
     marks: tuple[int, ...]
 
     @classmethod
-    def of(cls, profile: RailProfile) -> "_Outline":
-        side = profile.half_outline()
-        return cls(profile, side, tuple(_nearest(side, p) for p in _block_corners(profile)))
+    def of(cls, profile: RailProfile, round_corner: bool) -> "_Outline":
+        side, marks = profile.half_outline(), []
+        for corner in _block_corners(profile, round_corner):
+            side, mark = _with_point(side, corner)
+            marks.append(mark)
+        return cls(profile, side, tuple(marks))
 
     @property
     def top_length(self) -> float:
-        """Arc length from the crown to the shoulder in m."""
+        """Arc length from the crown to the end of the head's upper edge in m."""
         top = self.side[: self.marks[0] + 1]
         return float(np.sum(np.hypot(*np.diff(top, axis=0).T)))
 
@@ -256,8 +278,16 @@ def _half(outline: _Outline, grading: _Grading, low: float, high: float) -> Sect
     return SectionMesh(nodes, quads, ids[2][-1, fine], ids[0][0], True)
 
 
-def _nearest(side: Array, point: tuple[float, float]) -> int:
-    return int(np.argmin(np.hypot(side[:, 0] - point[0], side[:, 1] - point[1])))
+def _with_point(side: Array, point: tuple[float, float]) -> tuple[Array, int]:
+    """Outline with a point of it among its vertices, and which one that is."""
+    distance = np.hypot(side[:, 0] - point[0], side[:, 1] - point[1])
+    nearest = int(np.argmin(distance))
+    # vertices stand closely on arcs; lines have none between their ends
+    if distance[nearest] < 2e-3:
+        return side, nearest
+    # z falls from vertex to vertex
+    after = int(np.searchsorted(-side[:, 1], -point[1]))
+    return np.insert(side, after, [point], axis=0), after
 
 
 def _whole(left: SectionMesh, right: SectionMesh) -> SectionMesh:

@@ -15,7 +15,9 @@ from contactstudy.solids.chain import BlockTridiagonal, Slice, chain_blocks, rep
 from contactstudy.solids.section_rows import SectionRows
 
 Array = NDArray[np.float64]
+IntArray = NDArray[np.int64]
 MARGIN = 3  # cells on each side of the two loaded ones
+_AT_ONCE = 10  # planes whose loads are solved for together
 
 
 @dataclass(frozen=True)
@@ -65,30 +67,55 @@ def window_response(piece: Slice, n_slices: int, rows: SectionRows) -> WindowRes
     """
     cell = repeat(piece, n_slices)
     beyond = repeat(cell, MARGIN)
-    n, ny, nm = len(rows.weights), len(rows.surface_y), len(rows.foot)
-    count = n_slices + 1
     factor = BlockTridiagonal(*chain_blocks([piece] * (2 * n_slices), beyond.bb, beyond.aa))
-    others = np.vstack([rows.foot, rows.centre[:1]]).T
-    rhs = []
-    for p in range(2 * n_slices + 1):
-        b = np.zeros((n, count * (ny + nm + 1)))
-        if p < count:
-            b[:, p * ny : (p + 1) * ny] = rows.surface.T
-            b[:, count * ny + p :: count] = others
-        rhs.append(b)
-    u = factor.solve(rhs)
-    contact = slice(0, count * ny)
-    kept = slice(0, count * (ny + nm))
-    centre_load = count * (ny + nm) + np.arange(count)
+    # some planes of loads at a time, which keeps the memory small
+    groups = np.array_split(np.arange(n_slices + 1), max(1, (n_slices + 1) // _AT_ONCE))
+    parts = [_loaded(factor, group, n_slices, rows) for group in groups]
+    # the columns of a part are (contact, foot, planes of the group), each motion of the foot apart
+    surface, centre, own = (np.concatenate([p[i] for p in parts], axis=-1) for i in range(3))
+    planes = np.concatenate([p[3] for p in parts], axis=-1)
+    feet = np.concatenate([p[4] for p in parts], axis=-1)
+    kept = np.concatenate([planes, feet.reshape(*feet.shape[:2], -1)], axis=-1)
     # the neighbouring interfaces follow from the cells beyond: (beyond' + K_aa) u_2 = -K_ab u_3
     before = repeat(cell, MARGIN - 1)
-    left = -sl.solve(before.bb + cell.aa, cell.ab @ u[0][:, kept], assume_a="pos")
-    right = -sl.solve(before.aa + cell.bb, cell.ab.T @ u[-1][:, kept], assume_a="pos")
-    return WindowResponse(
-        surface=np.stack([rows.surface @ x[:, contact] for x in u]),
-        centre=np.stack([rows.centre @ x[:, contact] for x in u]),
-        own_centre=np.array(
-            [[rows.centre[0] @ u[p + q][:, centre_load[p]] for p in range(count)] for q in (0, 1)]
+    left = -sl.solve(before.bb + cell.aa, cell.ab @ kept[0], assume_a="pos")
+    right = -sl.solve(before.aa + cell.bb, cell.ab.T @ kept[2], assume_a="pos")
+    return WindowResponse(surface, centre, own, np.stack([left, *kept, right]))
+
+
+def _loaded(
+    factor: BlockTridiagonal, group: IntArray, n_slices: int, rows: SectionRows
+) -> tuple[Array, Array, Array, Array, Array]:
+    """Responses to the loads on a group of planes.
+
+    Returns
+    -------
+    surface, centre, own_centre : ndarray
+        As of `WindowResponse`, the columns of this group.
+    contact : ndarray (3, n, len(group)*ny)
+        Displacements of the window's first, middle and last plane under the contact loads.
+    foot : ndarray (3, n, nm, len(group))
+        And under those on the foot.
+    """
+    n, ny, nm, k = len(rows.weights), len(rows.surface_y), len(rows.foot), len(group)
+    others = np.vstack([rows.foot, rows.centre[:1]]).T
+    rhs = [np.zeros((n, k * (ny + nm + 1))) for _ in range(2 * n_slices + 1)]
+    for j, p in enumerate(group):
+        rhs[p][:, j * ny : (j + 1) * ny] = rows.surface.T
+        rhs[p][:, k * ny + j :: k] = others
+    u = factor.solve(rhs)
+    contact, foot = slice(0, k * ny), slice(k * ny, k * (ny + nm))
+    load = k * (ny + nm) + np.arange(k)
+    ends = np.stack([u[0], u[n_slices], u[-1]])
+    return (
+        np.stack([rows.surface @ x[:, contact] for x in u]),
+        np.stack([rows.centre @ x[:, contact] for x in u]),
+        np.array(
+            [
+                [rows.centre[0] @ u[p + q][:, c] for p, c in zip(group, load, strict=True)]
+                for q in (0, 1)
+            ]
         ),
-        interfaces=np.stack([left, *(x[:, kept] for x in (u[0], u[n_slices], u[-1])), right]),
+        ends[:, :, contact],
+        ends[:, :, foot].reshape(3, n, nm, k),
     )

@@ -1,6 +1,6 @@
 """Where the wheel stands on the rail: contact points and candidate facets of the two surfaces."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -99,6 +99,29 @@ class Geometry:
         down = (self.touch.travel + approach) * self.pose.vertical
         arc, distance = self.rail.project(points[:, 1:] - down)
         return s[distance < 0], arc[distance < 0]
+
+    def moved(self, lateral: float) -> "Geometry":
+        """The same with the wheel further to the field side by `lateral` in m."""
+        pose = replace(self.pose, lateral=self.pose.lateral + lateral)
+        return Geometry(self.rail, self.wheel, self.radius, pose)
+
+    def feet(self, s: Array) -> Array:
+        """Where lines of the wheel come nearest to the rail at the first touch.
+
+        Parameters
+        ----------
+        s : ndarray (n,)
+            Arc lengths on the wheel's profile in m.
+
+        Returns
+        -------
+        ndarray (n,)
+            Arc lengths on the rail in m.
+        """
+        placed = PlacedWheel(self.wheel, self.radius, self.pose)
+        points, _ = placed.surface(placed.locus(s), s)
+        arc, _ = self.rail.project(points[:, 1:] - self.touch.travel * self.pose.vertical)
+        return np.asarray(arc)
 
 
 def wheel_points(

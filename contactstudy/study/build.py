@@ -2,33 +2,26 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
-
 import numpy as np
 
 from contactstudy import integrators
 from contactstudy.contact.hertz import HertzContact, contact_modulus, hertz_contact
 from contactstudy.contact.laws import ContactLaw, HertzSpring, LinearSpring, RigidContact
-from contactstudy.contact.pose import Pose
 from contactstudy.contact.press import tangent_stiffness
-from contactstudy.exceptions import InputError
-from contactstudy.profiles.curve import ProfileCurve
 from contactstudy.profiles.rail import rail_profile
 from contactstudy.profiles.wheel_body import wheel_dimensions
-from contactstudy.scans import Meeting
 from contactstudy.solids.cache import cached
 from contactstudy.solids.cell import RailCell, condense
 from contactstudy.solids.recipe import CellRecipe
-from contactstudy.solids.section_mesh import fine_reach
 from contactstudy.solids.wheel import WheelFlexibility, WheelRecipe, elastic_wheel, rigid_wheel
 from contactstudy.solids.wheel_modes import ModesRecipe, WheelModes, wheel_modes
 from contactstudy.solids.wheel_recipe import FAR_STEP, FAR_STEP_OF_MODES
-from contactstudy.solvers.geometry import Geometry
 from contactstudy.solvers.journey import Journey
 from contactstudy.solvers.surface import PRESS_LOADS, geometry_press
+from contactstudy.study.placing import contact_zone, geometry
 from contactstudy.study.runs import PointRun, RunTable
 from contactstudy.study.schema import Study
-from contactstudy.study.wheelset import complaint_of_position
+from contactstudy.study.vehicles import vehicle
 from contactstudy.track.model import (
     Ballast,
     DiscreteSupports,
@@ -39,24 +32,21 @@ from contactstudy.track.model import (
     WinklerFoundation,
 )
 from contactstudy.track.solid import SolidTrack, solid_rail
-from contactstudy.vehicle import Vehicle, bare_wheel, wheel_column
-
-RAIL_MARGIN = 0.002
-"""m, by which the rail's fine running surface reaches beyond the wheel's contact points."""
 
 
 def recipe(study: Study) -> CellRecipe:
     """Recipe of the solid rail's cell; beams take their section from the same mesh."""
-    track, solid, zone = study.track, study.solid, contact_zone(study)
+    track, solid = study.track, study.solid
+    low, high = contact_zone(study).rail
     return CellRecipe(
         profile=track.rail,
         size=solid.mesh_size,
         length=solid.cell_length,
         coarse=solid.coarse_mesh_size,
-        contact_half_width=solid.contact_half_width + RAIL_MARGIN,
+        contact_half_width=0.5 * (high - low),
         interface_modes=solid.interface_modes,
         internal_modes=solid.internal_modes,
-        contact_centre=zone[1],
+        contact_centre=0.5 * (low + high),
         symmetric=solid.section == "half",
         youngs_modulus=track.youngs_modulus,
         poisson_ratio=track.poisson_ratio,
@@ -64,84 +54,14 @@ def recipe(study: Study) -> CellRecipe:
     )
 
 
-def geometry(study: Study) -> Geometry | None:
-    """Profiles and position of the wheel; None for half sections, centred and upright."""
-    if study.solid.section == "half":
-        return None
-    drawn, pose = _position(study)
-    return _geometry(*study.scan.curves(*drawn), study.vehicle.wheel_radius, pose)
-
-
-def _position(study: Study) -> tuple[tuple[ProfileCurve, ProfileCurve], Pose]:
-    """Drawn profiles of rail and wheel, and the position of the wheel that they give.
-
-    Scans seldom show gauge face and flange back, so they do not change the position.
-    """
-    drawn = study.wheelset.curves(study.track.rail)
-    return drawn, study.wheelset.pose(*drawn, study.vehicle.wheel_radius)
-
-
-@lru_cache(maxsize=4)
-def _geometry(rail: ProfileCurve, wheel: ProfileCurve, radius: float, pose: Pose) -> Geometry:
-    # one object, so that its first touch is searched for once
-    return Geometry(rail, wheel, radius, pose)
-
-
-def scan_meeting(study: Study) -> Meeting | None:
-    """First touch of the study's scans, whose facets must cover the zone of contact.
-
-    Raises
-    ------
-    InputError
-        Listing everything that is wrong with the scans.
-    """
-    if study.solid.section == "half" or not study.scan.used:
-        return None
-    drawn, pose = _position(study)
-    zone = study.solid.contact_half_length, study.solid.contact_half_width
-    return study.scan.touch(*drawn, study.vehicle.wheel_radius, pose, *zone)
-
-
-def contact_zone(study: Study) -> tuple[float, float]:
-    """Middle of the fine zones on wheel and rail, arc lengths in m, to half a millimetre.
-
-    Where the bodies would overlap at an approach of 80 um at 70 kN and in proportion to
-    ``F^(2/3)`` at others: somewhat more than the approach of steel wheels.
-
-    Raises
-    ------
-    InputError
-        If the rail's fine zone would reach beyond its head.
-    """
-    placed = geometry(study)
-    if placed is None:
-        return 0.0, 0.0
-    load = float(vehicle(study).static_loads[0])
-    s, arc = placed.overlap(80e-6 * (load / 70e3) ** (2 / 3))
-    on_wheel, on_rail = (round(2e3 * 0.5 * (v.min() + v.max())) * 0.5e-3 for v in (s, arc))
-    solid, place = study.solid, study.wheelset
-    reach = fine_reach(rail_profile(study.track.rail), solid.mesh_size)
-    edge = abs(on_rail) + solid.contact_half_width + RAIL_MARGIN
-    if edge > reach + 1e-9:
-        at = complaint_of_position("wheelset.lateral_shift", place.lateral_shift, place.yaw)
-        raise InputError(
-            f"{at}: the {place.side} wheel touches its rail {1e3 * abs(on_rail):.1f} mm from the "
-            f"crown; with solid.contact_half_width = {1e3 * solid.contact_half_width:g} mm the "
-            f"finely meshed zone would end at {1e3 * edge:.1f} mm, and must end within "
-            f"{1e3 * reach:.1f} mm. Contact further down is computed by studies of positions "
-            "(table [positions])"
-        )
-    return on_wheel, on_rail
-
-
 def wheel_recipe(study: Study) -> WheelRecipe:
     """Recipe of the meshed wheel: same steel as the rail."""
-    track, solid, zone = study.track, study.solid, contact_zone(study)
+    track, solid = study.track, study.solid
     half = solid.section == "half"
     return WheelRecipe(
         profile="cylinder" if half else study.wheelset.wheel_profile,
         symmetric=half,
-        contact_centre=zone[0],
+        contact_centre=contact_zone(study).wheel,
         rail_profile=track.rail,
         dimensions=wheel_dimensions(solid.wheel_section).with_radius(study.vehicle.wheel_radius),
         size=solid.mesh_size,
@@ -233,22 +153,6 @@ def modes(study: Study, run: str) -> WheelModes | None:
     if study.wheel(run) != "modal":
         return None
     return cached(wheel_modes, WheelModes, modes_recipe(study))
-
-
-def vehicle(study: Study) -> Vehicle:
-    """The vehicle of all runs of a study."""
-    table = study.vehicle
-    if table.type == "bare_wheel":
-        return bare_wheel(table.wheel_mass, table.static_load)
-    return wheel_column(
-        table.wheel_mass,
-        table.bogie_mass,
-        table.car_mass,
-        table.primary_stiffness,
-        table.primary_damping,
-        table.secondary_stiffness,
-        table.secondary_damping,
-    )
 
 
 def journey(study: Study, run: str) -> Journey:

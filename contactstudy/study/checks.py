@@ -21,7 +21,7 @@ from contactstudy.study.tables import (
 from contactstudy.study.wheelset import WheelsetTable, problems_of
 
 _SLACK = 1e-9  # relative, for lengths that were given in decimal
-# what the meshes of wheel and rail allow; the rail's reaches further by `build.RAIL_MARGIN`
+# what the meshes of wheel and rail allow; the rail's reaches further by `placing.RAIL_MARGIN`
 _ZONES = {"contact_half_length": 0.040, "contact_half_width": 0.023}
 
 

@@ -9,9 +9,11 @@ import xarray as xr
 
 from contactstudy.solids.cache import entry_path
 from contactstudy.study import build
+from contactstudy.study.placing import geometry
 from contactstudy.study.roughness import irregularity_of
 from contactstudy.study.runs import PointRun, SurfaceRun
 from contactstudy.study.schema import Study
+from contactstudy.study.vehicles import vehicle
 from contactstudy.sweep import Progress
 
 
@@ -38,7 +40,7 @@ def _point(study: Study, run: str, table: PointRun, progress: Progress | None) -
     track = build.track(study)
     return point_contact(
         build.solid_track(study, track) if table.rail == "solid" else track,
-        build.vehicle(study),
+        vehicle(study),
         irregularity_of(study, table.irregularity == "smooth", table.direction),
         build.journey(study, run),
         rail_theory="timoshenko" if table.rail == "timoshenko" else "euler",
@@ -57,10 +59,10 @@ def _surface(study: Study, run: str, table: SurfaceRun, progress: Progress | Non
     return surface_contact(
         build.solid_track(study, build.track(study)),
         build.wheel(study, run),
-        build.vehicle(study),
+        vehicle(study),
         irregularity_of(study, table.irregularity == "smooth"),
         build.journey(study, run),
-        geometry=build.geometry(study),
+        geometry=geometry(study),
         modes=build.modes(study, run),
         wheel_damping=study.solid.wheel_damping,
         penalty=study.solid.penalty,

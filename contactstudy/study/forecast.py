@@ -13,9 +13,11 @@ from contactstudy.exceptions import InputError
 from contactstudy.study import build
 from contactstudy.study.execution import is_condensed
 from contactstudy.study.loading import load_companions
+from contactstudy.study.placing import scan_meeting
 from contactstudy.study.roughness import describe
 from contactstudy.study.runs import PointRun
 from contactstudy.study.schema import Study
+from contactstudy.study.vehicles import vehicle
 from contactstudy.track.beam import BeamTrack
 from contactstudy.track.model import DiscreteSupports, Slab, Track
 
@@ -40,7 +42,7 @@ def forecast(study: Study, run: str, track: Track) -> Forecast:
     """Forecast of one run of a study on its `track`."""
     table = study.runs[run]
     steps = build.journey(study, run).n_steps
-    vehicle = build.vehicle(study).n_dofs
+    wheels = vehicle(study).n_dofs
     if isinstance(table, PointRun) and not table.needs_solid:
         beam = BeamTrack(
             track,
@@ -49,9 +51,9 @@ def forecast(study: Study, run: str, track: Track) -> Forecast:
             table.local_compliance,
             direction=table.direction,
         )
-        dofs = beam.n_dofs + vehicle
+        dofs = beam.n_dofs + wheels
         return Forecast(dofs, steps, START + steps * (POINT_STEP + POINT_STEP_PER_DOF * dofs))
-    dofs = solid_dofs(study, track) + vehicle
+    dofs = solid_dofs(study, track) + wheels
     seconds = START + steps * (SOLID_STEP + SOLID_STEP_PER_DOF * dofs)
     return Forecast(dofs, steps, seconds)
 
@@ -86,7 +88,7 @@ def print_check(study: Study, console: Console) -> None:
     # whatever may be refused comes before the first line
     if study.runs:
         contact = _contact(study)
-        build.scan_meeting(study)
+        scan_meeting(study)
     forecasts = [
         (name if one is study else f"{one.name}: {name}", forecast(one, name, build.track(one)))
         for one in (study, *companions)
@@ -122,7 +124,7 @@ def print_check(study: Study, console: Console) -> None:
 
 def _contact(study: Study) -> str:
     """Static load and Hertz's contact, which conformal profiles do not have."""
-    load = float(build.vehicle(study).static_loads[0])
+    load = float(vehicle(study).static_loads[0])
     text = f"static wheel load {load / 1e3:.2f} kN; "
     try:
         hertz = build.hertz(study)

@@ -10,8 +10,8 @@ from typing import Any
 from contactstudy.profiles.wheel_body import file_digest
 from contactstudy.provenance import versions
 from contactstudy.study import store
-from contactstudy.study.build import contact_zone, scan_meeting
 from contactstudy.study.loading import load_companions
+from contactstudy.study.placing import contact_zone, scan_meeting
 from contactstudy.study.results import IrregularityInfo
 from contactstudy.study.roughness import describe
 from contactstudy.study.scan import PATHS as SCAN_PATHS

@@ -12,6 +12,7 @@ from contactstudy.solvers.geometry import Geometry, wheel_points
 from contactstudy.solvers.surface import geometry_press
 from contactstudy.study import build
 from contactstudy.study.loading import load_study
+from contactstudy.study.placing import geometry
 from contactstudy.study.schema import Study
 from contactstudy.verification.check import CaseResult, Check, Table
 
@@ -37,7 +38,7 @@ _SOURCE = "half-space, Love (1929)"
 def solid_press() -> CaseResult:
     """Static press at four loads, solid bodies beside the half-space."""
     study = load_study("s1002_inclined")
-    placed = build.geometry(study)
+    placed = geometry(study)
     assert placed is not None
     exact = [_half_space(study, placed, float(load)) for load in LOADS]
     wheel = build.wheel(study)

@@ -63,6 +63,31 @@ def test_no_element_is_inverted():
         assert np.min(a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]) > 0
 
 
+@pytest.mark.parametrize("size", [0.001, 0.002, 0.004, 0.008])
+@pytest.mark.parametrize("centre", [-0.020, -0.030, 0.035])
+def test_fine_zone_round_the_gauge_corner(size, centre):
+    """On the drawing to rounding, at equal steps, with sound elements, and the same section."""
+    profile, half_width = rail_profile(), 0.014
+    mesh = rail_section_mesh(profile, size, False, half_width, contact_centre=centre)
+    y, z = mesh.nodes[mesh.surface].T
+    np.testing.assert_allclose(z, profile.running_surface(y), atol=1e-15)
+    arc = profile.running_arc(y)
+    np.testing.assert_allclose(arc[[0, -1]], [centre - half_width, centre + half_width], atol=2e-6)
+    np.testing.assert_allclose(
+        np.diff(arc), 2 * half_width / round(2 * half_width / size), rtol=2e-3
+    )
+    # positive at the Gauss points; one element's corner on the straight underside is a flat angle
+    p, g = mesh.nodes[mesh.quads], np.sqrt(1 / 3)
+    for xi, eta in ((-g, -g), (g, -g), (g, g), (-g, g)):
+        dN = np.array([[eta - 1, 1 - eta, 1 + eta, -1 - eta], [xi - 1, -1 - xi, 1 + xi, 1 - xi]])
+        assert np.linalg.det(0.25 * dN @ p).min() > 0
+    bent = mesh.properties(0.3)
+    plain = rail_section_mesh(profile, size, False).properties(0.3)
+    assert bent.area == pytest.approx(plain.area, rel=0.004)
+    assert bent.second_moment_y == pytest.approx(plain.second_moment_y, rel=0.004)
+    assert bent.second_moment_z == pytest.approx(plain.second_moment_z, rel=0.004)
+
+
 def test_slice_mass_and_rigid_motion():
     _, piece, rows = section_of(CellRecipe(size=0.004))
     up = rows.rigid[:, 1]

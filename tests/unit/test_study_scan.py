@@ -11,6 +11,7 @@ from contactstudy.exceptions import InputError
 from contactstudy.profiles.curve import rail_curve, wheel_curve
 from contactstudy.study import build
 from contactstudy.study.loading import load_study, parse_study
+from contactstudy.study.placing import geometry
 from contactstudy.study.plan import plan_study
 from contactstudy.verification.scans import synthetic_scan
 
@@ -48,9 +49,9 @@ def folder(tmp_path):
 def test_scans_take_the_place_of_the_drawn_surfaces(folder):
     study = load_study(folder / "scanned.toml")
     assert study.scan.rail == str(folder / "rail.stl")
-    scanned = build.geometry(study)
+    scanned = geometry(study)
     unscanned = ["scan.rail=", "scan.wheel=", "scan.rail_unit=", "scan.wheel_unit="]
-    drawn = build.geometry(load_study(folder / "scanned.toml", unscanned))
+    drawn = geometry(load_study(folder / "scanned.toml", unscanned))
     assert scanned.rail.residual > 1e-6 and drawn.rail.residual == 0.0
     assert scanned.pose == drawn.pose
     assert scanned.touch.arc == pytest.approx(drawn.touch.arc, abs=1e-3)
@@ -74,7 +75,7 @@ def test_a_plan_holds_the_content_and_the_residuals(folder, tmp_path):
 
 def test_a_hole_under_the_contact_stops_the_plan(folder, tmp_path):
     study = load_study(folder / "scanned.toml")
-    s = build.geometry(study).touch.arc
+    s = geometry(study).touch.arc
     mesh = MESHES["rail"]
     y = rail_curve("60E1").point(s)[0]
     away = np.hypot(*(mesh.triangles_center[:, :2] - [0.0, y]).T) > 3e-3

@@ -5,9 +5,12 @@ import math
 import numpy as np
 import pytest
 
+from contactstudy.contact.placed import placed_points
 from contactstudy.exceptions import InputError
+from contactstudy.solids.cell import section_of
 from contactstudy.study import build
 from contactstudy.study.loading import load_study
+from contactstudy.study.placing import contact_zone, geometry
 
 WHOLE = ["solid.section=whole"]
 
@@ -37,7 +40,7 @@ def test_inclination_as_ratio_or_angle():
 
 def test_centred_position_follows_from_gauge_and_flange_backs():
     """Tape circle 680 + 70 mm from the middle; gauge point of the inclined rail at 717.5 mm."""
-    placed = build.geometry(loaded())
+    placed = geometry(loaded())
     assert placed is not None
     # the gauge point, 36 mm beside and 14 mm below the crown, turned by 1:40; the depth counts
     # from the highest point, 0.09 mm above the crown, where the head is 0.1 mm narrower
@@ -48,10 +51,10 @@ def test_centred_position_follows_from_gauge_and_flange_backs():
 
 def test_shift_moves_the_wheels_of_the_two_sides_apart():
     shifted = [
-        build.geometry(loaded("wheelset.lateral_shift=3 mm", f"wheelset.side={side}"))
+        geometry(loaded("wheelset.lateral_shift=3 mm", f"wheelset.side={side}"))
         for side in ("left", "right")
     ]
-    centred = build.geometry(loaded())
+    centred = geometry(loaded())
     left, right = (g.pose.lateral - centred.pose.lateral for g in shifted)
     # the roll at rest swings the wheels' lowest points sideways about the axle
     swing = 0.43 * shifted[1].pose.roll
@@ -60,19 +63,28 @@ def test_shift_moves_the_wheels_of_the_two_sides_apart():
     assert 0 < swing < 0.2e-3
 
 
-def test_fine_zones_lie_over_each_other():
-    study = loaded("wheelset.lateral_shift=2 mm")
-    s, arc = build.contact_zone(study)
-    placed = build.geometry(study)
-    below, _ = placed.overlap(1e-3)
-    assert below.min() < s < below.max()
-    rail, wheel = build.recipe(study), build.wheel_recipe(study)
-    assert (rail.contact_centre, wheel.contact_centre) == (arc, s)
-    assert not rail.symmetric and not wheel.symmetric
+@pytest.mark.parametrize("shift", [0, 2, 5, 5.5, 6.5, 8])
+def test_fine_zones_lie_over_each_other(shift):
+    """From the tread's middle over tread and flange root at once (5 mm) to the flange."""
+    study = loaded(f"wheelset.lateral_shift={shift} mm")
+    zone, placed = contact_zone(study), geometry(study)
+    half = study.solid.contact_half_width
+    s, arc = placed.overlap(40e-6)
+    assert zone.wheel - half < s.min() and s.max() < zone.wheel + half
+    assert zone.rail[0] < arc.min() and arc.max() < zone.rail[1]
+    wheel = build.wheel_recipe(study)
+    assert not wheel.symmetric and wheel.contact_centre == zone.wheel
+    # the meshed running surface holds the foot of every point of the wheel's zone
+    points = placed_points(
+        wheel.x, wheel.y, placed.radius, placed.rail, placed.wheel, placed.pose, placed.touch
+    )
+    section, _, rows = section_of(build.recipe(study))
+    assert not section.symmetric
+    assert rows.surface_arc.min() < points.arc.min() < points.arc.max() < rows.surface_arc.max()
 
 
 def test_hertz_takes_the_curvatures_at_the_touch():
-    placed = build.geometry(loaded())
+    placed = geometry(loaded())
     along, across = placed.relative_radii()
     assert along == pytest.approx(0.43, rel=0.01)
     # R300 of the crown against the hollow tread: z'' of EN 13715's polynomial B [1/mm]
@@ -80,7 +92,7 @@ def test_hertz_takes_the_curvatures_at_the_touch():
     hollow = 2 * 1.565681624e-3 - 6 * 2.810427944e-5 * s + 12 * 5.844240864e-8 * s**2
     hollow -= 20 * 1.562379023e-8 * s**3
     assert 1 / across == pytest.approx(1 / 0.3 - 1e3 * hollow, rel=0.01)
-    cone = build.geometry(loaded("wheelset.wheel_profile=cone"))
+    cone = geometry(loaded("wheelset.wheel_profile=cone"))
     assert cone.relative_radii()[1] == pytest.approx(0.3, rel=1e-6)
 
 
@@ -113,7 +125,7 @@ def test_worn_wheel_from_a_file_beside_the_study(tmp_path):
         '[runs.a]\nsolver = "surface"\n',
         encoding="utf-8",
     )
-    own, drawn = (build.geometry(load_study(p)) for p in (tmp_path / "own.toml", "s1002_inclined"))
+    own, drawn = (geometry(load_study(p)) for p in (tmp_path / "own.toml", "s1002_inclined"))
     assert own.touch.wheel_s == pytest.approx(drawn.touch.wheel_s, abs=0.3e-3)
     assert own.pose.lateral == pytest.approx(drawn.pose.lateral, abs=1e-9)
 
@@ -131,7 +143,14 @@ def test_a_wheelset_too_narrow_for_its_track_names_the_keys():
     assert "inside the rails' crowns; must be at most 50 mm" in text
 
 
-def test_contact_beyond_the_fine_zone_names_the_position():
-    study = loaded("wheelset.lateral_shift=6 mm")
-    with pytest.raises(InputError, match=r"wheelset.lateral_shift = 6 mm .* must end within 31.6"):
-        build.contact_zone(study)
+def test_the_zone_follows_the_rail_as_it_gives_way_sideways():
+    """At 5.5 mm the drawn bodies touch at the gauge corner alone; pushed aside by a fraction of a
+    millimetre the rail meets the tread as well, and both places lie in the zone."""
+    study = loaded("wheelset.lateral_shift=5.5 mm")
+    zone, placed = contact_zone(study), geometry(study)
+    half = study.solid.contact_half_width
+    given = placed.moved(-0.6e-3).touch
+    for touch in (placed.touch, given):
+        assert abs(touch.wheel_s - zone.wheel) < half
+        assert zone.rail[0] < touch.arc < zone.rail[1]
+    assert given.arc - placed.touch.arc > 0.01
