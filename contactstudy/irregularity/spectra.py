@@ -52,8 +52,17 @@ def german(
     direction : {"vertical", "lateral"}
         Longitudinal level or alignment.
     sides : {"two", "one"}
-        How the formula is read. The literature is not of one mind and mostly silent; two-sided
-        is this program's convention, one-sided halves the density.
+        How the formula is read; two-sided is this program's convention, one-sided halves the
+        density.
+
+    Notes
+    -----
+    ERRI B176 is not public and papers that print the formula mostly do not say how it is meant.
+    Open programs integrate it over positive wavenumbers alone, that is, read it one-sided: ORVD
+    (its documentation "Track-irregularity spectra", which quotes SIMPACK's library with these very
+    coefficients, ``A w_c^2`` = 2.741619e-7 and 7.343623e-7 m^2 (rad/m)^3 vertically) and TTB-2D
+    (D. Cantero, SoftwareX 20 (2022) 101253). Their profiles have half the variance of the default
+    here; ``sides="one"`` gives theirs.
     """
     _one_of("german", "level", level, ("low", "high"))
     _one_of("german", "direction", direction, tuple(_GERMAN))
@@ -81,7 +90,13 @@ def fra(track_class: int = 6, sides: Sides = "two") -> Spectrum:
     track_class : int
         1 (worst) to 6.
     sides : {"two", "one"}
-        How the formula is read; as with the German spectra the literature does not say.
+        How the formula is read; two-sided is this program's convention.
+
+    Notes
+    -----
+    Open programs differ: TTB-2D and ORVD (see `german`) read ``0.25 A_v w_c^2/(w^2 (w^2 + w_c^2))``
+    one-sided; the documentation of STEM ("Irregularities model", after Zhang et al. 2001) has 2 pi
+    in place of 0.25 and amplitudes ``sqrt(4 S dw)``, which is two-sided.
     """
     _one_of("fra", "track_class", track_class, tuple(range(1, 7)))
     _one_of("fra", "sides", sides, ("two", "one"))

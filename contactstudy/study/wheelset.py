@@ -17,8 +17,11 @@ from contactstudy.study.section import Section
 
 PATHS = ("wheel_profile", "rail_profile")
 """Keys that may hold a file's name instead of a profile's."""
-CLIMBED = math.radians(26.6)
-"""Contact angle on the flange's tip where a climbing wheel counts as derailed (TCRP Report 71)."""
+CLIMBED = math.atan(0.5)
+"""Contact angle on the flange's tip below which a wheel counts as derailed: our limit.
+
+Friction with a coefficient of 0.5, an upper value for dry steel, holds a wheel on any flatter slope.
+"""
 _FLANGE = math.radians(45)
 _BESIDE = 0.05
 

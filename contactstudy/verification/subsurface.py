@@ -10,7 +10,8 @@ from contactstudy.verification.below import Below, line, order, sphere
 from contactstudy.verification.check import CaseResult, Check, Table
 
 SOURCE = "Johnson 1985"
-# K. L. Johnson, Contact Mechanics (1985), nu = 0.3: section 3.4(a) and eq. (3.45); eq. (4.46)
+# nu = 0.3; rounded from the closed forms below (0.31002 at 0.4809 a, 0.30028 at 0.7862 b), which
+# are K. L. Johnson, Contact Mechanics (1985), eqs (3.45) and (4.46)
 SPHERE_SHEAR, SPHERE_DEPTH = 0.310, 0.48
 LINE_SHEAR, LINE_DEPTH = 0.300, 0.786
 
