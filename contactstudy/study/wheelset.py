@@ -20,7 +20,8 @@ PATHS = ("wheel_profile", "rail_profile")
 CLIMBED = math.atan(0.5)
 """Contact angle on the flange's tip below which a wheel counts as derailed: our limit.
 
-Friction with a coefficient of 0.5, an upper value for dry steel, holds a wheel on any flatter slope.
+Friction with a coefficient of 0.5, taken as an upper value for dry steel, holds a wheel on any
+flatter slope.
 """
 _FLANGE = math.radians(45)
 _BESIDE = 0.05
