@@ -164,7 +164,7 @@ def _cuts(
     axes.set_ylim(bottom=0)
     top = axes.get_ylim()[1]
     axes.set_ylim(0, 1.45 * top)
-    axes.set_xlabel(f"Distance from the {_middle(hertz)} (mm)")
+    axes.set_xlabel(f"Distance from the {'peak' if hertz is None else 'centre'} (mm)")
     axes.set_ylabel("Pressure (MPa)")
     axes.legend(loc="upper center", ncols=2, columnspacing=1.0, handlelength=2.0)
 

@@ -43,11 +43,14 @@ def drawings(results: StudyResults) -> list[Drawing]:
         level = irregularity_at_instant(run)
         wheel = replace(wheel, displacement=wheel.displacement - np.array([0.0, level]))
         factor = magnification(rail, wheel)
+        at = contact_place(run, rail)
         return [
             Drawing(
                 "deformed_section",
                 _caption(name, run, rail, wheel, factor, level),
-                lambda rail=rail, wheel=wheel, factor=factor: _draw(rail, wheel, factor),  # type: ignore[misc]
+                lambda rail=rail, wheel=wheel, factor=factor, at=at: _draw(  # type: ignore[misc]
+                    rail, wheel, factor, at
+                ),
             )
         ]
     return []
@@ -59,6 +62,21 @@ def irregularity_at_instant(run: xr.Dataset) -> float:
         return 0.0
     at = float(np.asarray(run["instant_position"].values).ravel()[0])
     return float(np.interp(at, position(run), values(run, "irregularity")))
+
+
+def contact_place(run: xr.Dataset, rail: Section) -> FloatArray:
+    """Centre of pressure at that instant on the rail's outline, (y, z) in m; the crown if none."""
+    if not {"pressure", "point_y"} <= set(run.variables):
+        return np.zeros(2)
+    first = run.isel(instant=0)
+    p, y = (
+        np.nan_to_num(np.asarray(first[n].values, dtype=float)) for n in ("pressure", "point_y")
+    )
+    if not p.max() > 0 or y.min() >= -1e-9:  # nothing touches, or half of a symmetric patch
+        return np.zeros(2)
+    centre = float(p @ y / p.sum())
+    upper = rail.nodes[np.abs(rail.nodes[:, 0] - centre) < 5e-3]
+    return np.array([centre, float(upper[:, 1].max())])
 
 
 def section_of(run: xr.Dataset, body: str) -> Section | None:
@@ -97,13 +115,13 @@ def mean_sink(body: Section) -> float:
     return float(np.average(body.displacement[:, 1][body.quads].mean(axis=1), weights=area))
 
 
-def _draw(rail: Section, wheel: Section, factor: float) -> Figure:
+def _draw(rail: Section, wheel: Section, factor: float, at: FloatArray) -> Figure:
     figure = new_figure(4.0, equal_axes=True)
     whole, near = figure.subplots(1, 2, width_ratios=[1.0, 2.0])
     sink = mean_sink(rail)
     # What is seen near the contact sets the colours.
     shown = [
-        (b.displacement[:, 1] - sink)[np.hypot(b.nodes[:, 0], b.nodes[:, 1]) < 2e-3 * _NEAR]
+        (b.displacement[:, 1] - sink)[np.hypot(*(b.nodes - at).T) < 2e-3 * _NEAR]
         for b in (rail, wheel)
     ]
     seen = 1e6 * np.concatenate([*shown, [0.0]])
@@ -115,8 +133,9 @@ def _draw(rail: Section, wheel: Section, factor: float) -> Figure:
     text = "Vertical displacement less the rail's mean (µm)"
     figure.colorbar(image, ax=near, label=text, shrink=0.9)
     whole.autoscale_view()
-    near.set_xlim(-_NEAR, _NEAR)
-    near.set_ylim(-1.1 * _NEAR, 0.9 * _NEAR)
+    y, z = 1e3 * at
+    near.set_xlim(y - _NEAR, y + _NEAR)
+    near.set_ylim(z - 1.1 * _NEAR, z + 0.9 * _NEAR)
     whole.set_title(f"Displacements × {exact(factor)}")
     near.set_title("Near the contact, true to scale")
     for axes in (whole, near):

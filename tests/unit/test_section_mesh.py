@@ -63,7 +63,7 @@ def test_no_element_is_inverted():
         assert np.min(a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]) > 0
 
 
-@pytest.mark.parametrize("size", [0.001, 0.002, 0.004, 0.008])
+@pytest.mark.parametrize("size", [0.001, 0.002, 0.004, 0.006])
 @pytest.mark.parametrize("centre", [-0.020, -0.030, 0.035])
 def test_fine_zone_round_the_gauge_corner(size, centre):
     """On the drawing to rounding, at equal steps, with sound elements, and the same section."""
