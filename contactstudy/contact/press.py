@@ -6,7 +6,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contactstudy.contact.augmented import enforcement
-from contactstudy.contact.interpolation import SplineLine
 from contactstudy.contact.points import ContactPoints
 from contactstudy.contact.surface import PressedForces
 from contactstudy.exceptions import InputError
@@ -98,27 +97,6 @@ def tangent_stiffness(curve: PressCurve, load: float) -> float:
     c1, c2 = np.linalg.lstsq(basis, curve.approach, rcond=None)[0]
     # d(approach)/dF = 2/3 c1 F^(-1/3) + c2
     return float(1.0 / (2 / 3 * c1 * load ** (-1 / 3) + c2))
-
-
-def rail_matrix(points: ContactPoints, rail_x: Array, rail_y: Array, offset: float = 0.0) -> Array:
-    """Spline interpolation from the nodes of a running surface to the contact points.
-
-    Parameters
-    ----------
-    points : ContactPoints
-        The n contact points.
-    rail_x, rail_y : ndarray (nx,), (ny,)
-        Grid lines of the surface nodes in m, node index ``ix*ny + iy``.
-    offset : float
-        Position of the wheel in the axis of `rail_x` in m.
-
-    Returns
-    -------
-    ndarray (n, nx*ny)
-    """
-    along = SplineLine(rail_x)(points.x + offset)
-    across = SplineLine(rail_y, mirrored=points.symmetric)(points.y)
-    return np.asarray(np.kron(along, across))
 
 
 def penalty_compliance(points: ContactPoints, penalty: float) -> Array:

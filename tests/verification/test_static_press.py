@@ -11,12 +11,12 @@ import pytest
 from scipy.optimize import brentq
 from scipy.special import ellipe, ellipk
 
+from contactstudy.contact.interpolation import SplineLine
 from contactstudy.contact.points import ContactPoints, contact_points
 from contactstudy.contact.press import (
     PressCurve,
     contact_ellipse,
     press_curve,
-    rail_matrix,
     tangent_stiffness,
 )
 from contactstudy.profiles import rail_profile, wheel_profile
@@ -64,7 +64,8 @@ def block(size: float) -> tuple[ContactPoints, np.ndarray]:
     quarter = points.__class__(**{**points.__dict__, "area": 2 * points.area})
     # rail's nodes at x < 0 fold onto their images
     fold = np.kron(np.eye(nx)[np.abs(np.arange(2 * nx - 1) - (nx - 1))], np.eye(ny))
-    Pr = rail_matrix(quarter, full, patch.y) @ fold
+    along, across = SplineLine(full), SplineLine(patch.y, mirrored=True)
+    Pr = np.kron(along(quarter.x), across(quarter.y)) @ fold
     wheel = quarter.wheel_rows
     column = wheel.index // len(quarter.wheel_y) * ny + wheel.index % len(quarter.wheel_y)
     Pw = wheel.__class__(column, wheel.weight).matrix(nx * ny)
