@@ -33,14 +33,14 @@ def calculix_input(
     ----------
     mesh : PressMesh
     load : float
-        Wheel load in N, of both halves; half of it acts on the half model.
+        Vertical wheel load in N; of both halves, so that half of it acts on a half model.
     penalty : float
         Pressure per penetration in Pa/m.
     youngs_modulus, poisson_ratio : float
         Of both bodies, E in Pa.
     start : float
-        Displacement of the hub in the first step in m, enough to bring some faces together
-        (Hertz's approach is). The result does not depend on it.
+        Displacement of the hub in the first step in m, enough to bring some faces together.
+        The result does not depend on it.
     header : sequence of str
         Comment lines.
 
@@ -58,7 +58,8 @@ def calculix_input(
         + positive("penalty", penalty, "Pa/m")
         + positive("start", start, "m")
     )
-    held = ("SYMMETRY, 2, 2", "ENDS, 1, 3", "BORE, 1, 2")
+    held = (*("SYMMETRY, 2, 2",) * mesh.symmetric, "ENDS, 1, 3", "BORE, 1, 2")
+    share, whose = (0.5, ", half of it on this half model") if mesh.symmetric else (1.0, "")
     lines = [
         *(f"** {line}".rstrip() for line in header),
         f"** units: {UNITS}",
@@ -83,13 +84,13 @@ def calculix_input(
         "*CONTACT PRINT",  # CalculiX wants energies from the first step on
         "CELS",
         "*END STEP",
-        "** the wheel load on the hub, half of it on this half model",
+        f"** the wheel load on the hub{whose}",
         "*STEP",
         "*STATIC",
         "*BOUNDARY, OP=NEW",
         *held,
         "*CLOAD",
-        f"HUB, 3, {-0.5 * load:.12g}",
+        f"HUB, 3, {-share * load:.12g}",
         "*NODE PRINT, NSET=HUB",
         "U",
         "*CONTACT PRINT",
@@ -116,7 +117,7 @@ def _mesh(mesh: PressMesh) -> Iterator[str]:
             yield f"{i}, " + ", ".join(map(str, row))
         first += len(elements)
     for name, nodes in (
-        ("SYMMETRY", mesh.symmetry),
+        *((("SYMMETRY", mesh.symmetry),) * mesh.symmetric),
         ("ENDS", mesh.rail_ends),
         ("BORE", mesh.bore),
         ("HUB", mesh.bore[:1]),

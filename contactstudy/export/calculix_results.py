@@ -16,7 +16,7 @@ _HEADINGS = ("displacements", "contact stress", "contact print energy", "statist
 
 @dataclass(frozen=True)
 class CalculixPress:
-    """Static press as CalculiX found it; forces and areas are those of both halves.
+    """Static press as CalculiX found it; forces and areas of a half model are of both halves.
 
     Attributes
     ----------
@@ -24,6 +24,8 @@ class CalculixPress:
         Displacement of the hub towards the rail's clamped ends in m.
     force : float
         Vertical contact force in N.
+    lateral_force : float
+        Force on the wheel along Y in N; 0 of the two halves together.
     area : float
         Area of the integration points in contact in m^2.
     element : ndarray of int (k,)
@@ -36,6 +38,7 @@ class CalculixPress:
 
     approach: float
     force: float
+    lateral_force: float
     area: float
     element: IntArray
     pressure: Array
@@ -49,14 +52,14 @@ class CalculixPress:
         elements : ndarray of int (f,)
             Elements of the faces.
         areas : ndarray (f,)
-            Areas of the faces in m^2, of both halves.
+            Areas of the faces in m^2, of both halves of a half model.
         """
         force = np.zeros(int(max(elements.max(), self.element.max())) + 1)
         np.add.at(force, self.element, self.pressure * self.point_area)
         return np.asarray(force[elements] / areas)
 
 
-def read_press(path: Path, penalty: float) -> CalculixPress:
+def read_press(path: Path, penalty: float, symmetric: bool = True) -> CalculixPress:
     """Read the last step of a .dat file.
 
     Parameters
@@ -64,6 +67,8 @@ def read_press(path: Path, penalty: float) -> CalculixPress:
     path : Path
     penalty : float
         Of the model in Pa/m: gives the areas from the contact energies.
+    symmetric : bool
+        It is a half model: what it says counts twice.
 
     Raises
     ------
@@ -77,22 +82,23 @@ def read_press(path: Path, penalty: float) -> CalculixPress:
         energy = np.array(blocks["contact print energy"])
         # rows of the statistics: force and moment; centre and normal; moment; area, forces
         statistics = blocks["statistics"]
-        force, area = statistics[0][2], statistics[-1][0]
+        lateral, force, area = *statistics[0][1:3], statistics[-1][0]
     except (OSError, KeyError, IndexError) as error:
         raise NumericalError(
             f"CalculiX: {path.name} does not hold the results of a finished press "
             f"(missing: {error})"
         ) from error
-    pressure = 1e6 * stress[:, 2]
+    pressure, halves = 1e6 * stress[:, 2], 2.0 if symmetric else 1.0
     # energy of a point: 1/2 p A (p/penalty); N mm to J
     point_area = 2.0 * 1e-3 * energy[:, 2] * penalty / pressure**2
     return CalculixPress(
         approach=-1e-3 * hub[3],
-        force=2.0 * force,
-        area=2.0 * 1e-6 * area,
+        force=halves * force,
+        lateral_force=0.0 if symmetric else lateral,
+        area=halves * 1e-6 * area,
         element=stress[:, 0].astype(np.int64) - 1,
         pressure=pressure,
-        point_area=2.0 * point_area,
+        point_area=halves * point_area,
     )
 
 

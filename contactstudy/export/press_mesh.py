@@ -1,8 +1,10 @@
 """The static press as one plain finite-element mesh: rail slices and ring slices as hexahedra.
 
 Node for node the mesh that `track.unreduced.UnreducedTrack` and `solids.wheel.elastic_wheel`
-compute with; nothing is condensed. Half model y >= 0. The wheel's lowest point touches the crown
-in the middle of the rail, which is the origin: X along the rail, Y lateral, Z up.
+compute with; nothing is condensed. Axes are those of the track: X along the rail, Y lateral (to
+the field side), Z up; the origin is the crown in the middle of the rail. The bodies just touch, by
+their smooth profiles: a half model y >= 0 in the origin, whole sections wherever the position of
+the wheel has them touch.
 """
 
 from dataclasses import dataclass
@@ -11,9 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contactstudy.exceptions import InputError
-from contactstudy.solids.cell import section_of
+from contactstudy.export.bodies import Body, rail_body, wheel_body
+from contactstudy.profiles import wheel_curve
 from contactstudy.solids.recipe import CellRecipe
 from contactstudy.solids.wheel_recipe import WheelRecipe
+from contactstudy.solvers.geometry import Geometry
 from contactstudy.validation import raise_if
 
 Array = NDArray[np.float64]
@@ -30,49 +34,70 @@ class PressMesh:
     Attributes
     ----------
     nodes : ndarray (n, 3)
-        In m.
+        In track axes, m.
     rail, wheel : ndarray of int (m, 8)
         Elements: four corners, then the four opposite ones; positive Jacobian.
+    symmetric : bool
+        Only the half y >= 0 is there.
     symmetry : ndarray of int
-        Nodes on y = 0.
+        Nodes on y = 0 of a half model; none of a whole one.
     rail_ends : ndarray of int
         Nodes of the two clamped planes.
     bore : ndarray of int
         Nodes of the wheel's bore, which moves as one.
     running_surface, tread : ndarray of int (k, 2)
         Faces that may touch: element (the wheel's follow the rail's) and index into `FACES`.
+    tread_nodes : ndarray of int (mx, my)
+        Nodes of the tread's faces, on the grid of the wheel's contact zone.
     """
 
     nodes: Array
     rail: IntArray
     wheel: IntArray
+    symmetric: bool
     symmetry: IntArray
     rail_ends: IntArray
     bore: IntArray
     running_surface: IntArray
     tread: IntArray
+    tread_nodes: IntArray
 
     @property
     def elements(self) -> IntArray:
         """All elements, the rail's first."""
         return np.vstack([self.rail, self.wheel])
 
+    def corner_nodes(self, faces: IntArray) -> IntArray:
+        """Nodes (k, 4) of faces (k, 2)."""
+        return np.asarray(self.elements[faces[:, :1], np.array(FACES)[faces[:, 1]]])
+
     def corners(self, faces: IntArray) -> Array:
         """Corner coordinates (k, 4, 3) of faces (k, 2) in m."""
-        nodes = self.elements[faces[:, :1], np.array(FACES)[faces[:, 1]]]
-        return np.asarray(self.nodes[nodes])
+        return np.asarray(self.nodes[self.corner_nodes(faces)])
+
+    def places(self, faces: IntArray) -> tuple[IntArray, IntArray]:
+        """Intervals (k,) along and across of faces of the tread on the grid `tread_nodes`."""
+        my, place = self.tread_nodes.shape[1], np.full(len(self.nodes), -1)
+        place[self.tread_nodes.ravel()] = np.arange(self.tread_nodes.size)
+        first = place[self.corner_nodes(faces)].min(axis=1)
+        return first // my, first % my
 
 
-def press_mesh(cell: CellRecipe, wheel: WheelRecipe, length: float) -> PressMesh:
+def press_mesh(
+    cell: CellRecipe, wheel: WheelRecipe, length: float, geometry: Geometry | None = None
+) -> PressMesh:
     """Mesh the wheel in the middle of a rail.
 
     Parameters
     ----------
     cell : CellRecipe
-        Mesh of the rail; with the symmetric half section.
+        Mesh of the rail.
     wheel : WheelRecipe
+        Of the same kind of section, half or whole.
     length : float
         Of the rail in m, a whole number of slices.
+    geometry : Geometry, optional
+        Position of a whole wheel on a whole rail section, of the very profiles that are meshed.
 
     Returns
     -------
@@ -82,86 +107,84 @@ def press_mesh(cell: CellRecipe, wheel: WheelRecipe, length: float) -> PressMesh
     ------
     InputError
         If the slices do not divide the length, the rail is shorter than the contact zone, or the
-        section is not the half one.
+        sections and the position do not belong together.
     """
     thickness = cell.length / cell.n_slices
-    slices, problems = round(length / thickness), []
+    slices = round(length / thickness)
+    problems = _contradictions(cell, wheel, geometry)
     if abs(slices * thickness - length) > 1e-9 * length:
         problems.append(
             f"rail length = {length:g} m: must be a whole number of slices of {thickness:g} m"
         )
-    reach = float(wheel.x[-1]) + 2 * thickness
+    yaw = 0.0 if geometry is None else abs(np.sin(geometry.pose.yaw))
+    across = wheel.contact_half_width + abs(wheel.contact_centre)
+    reach = float(wheel.x[-1]) + across * yaw + 2 * thickness
     if length < 4 * reach:
         problems.append(
             f"rail length = {length:g} m: must be at least {4 * reach:.4g} m, twice the contact "
             "zone of the wheel"
         )
-    if not (cell.symmetric and wheel.symmetric):
-        problems.append("symmetric = False: only the half model y >= 0 can be exported")
+    raise_if(problems)
+    rail, ring = rail_body(cell, slices), wheel_body(wheel)
+    nodes, first = _placed(rail, ring, geometry), len(rail.nodes)
+    elements, tread = ring.elements + first, ring.surface + first
+    under = rail.surface[np.abs(rail.nodes[rail.surface, 0]) <= reach + 0.5 * thickness]
+    return PressMesh(
+        nodes=nodes,
+        rail=rail.elements,
+        wheel=elements,
+        symmetric=cell.symmetric,
+        symmetry=np.flatnonzero(cell.symmetric & (np.abs(nodes[:, 1]) < 1e-12)),
+        rail_ends=rail.held,
+        bore=ring.held + first,
+        running_surface=_faces(rail.elements, under),
+        tread=_faces(elements, tread) + np.array([len(rail.elements), 0]),
+        tread_nodes=tread,
+    )
+
+
+def _contradictions(cell: CellRecipe, wheel: WheelRecipe, geometry: Geometry | None) -> list[str]:
+    """What does not belong together."""
+    problems, kinds = [], {True: "half", False: "whole"}
+    if cell.symmetric != wheel.symmetric:
+        problems.append(
+            f"symmetric: the rail is a {kinds[cell.symmetric]} section, the wheel a "
+            f"{kinds[wheel.symmetric]} one; both must be the same"
+        )
+    elif cell.symmetric == (geometry is not None):
+        problems.append(
+            "geometry: must be given for whole sections, and only for them; a half model is "
+            "centred and upright"
+        )
     if wheel.rail_profile != cell.profile:
         problems.append(
             f"wheel made for rail {wheel.rail_profile}, rail {cell.profile}: must be the same"
         )
-    raise_if(problems)
-    rail_nodes, rail, rail_ends, surface = _rail(cell, slices, thickness)
-    wheel_nodes, ring, bore, tread = _wheel(wheel)
-    first = len(rail_nodes)
-    nodes = np.vstack([rail_nodes, wheel_nodes])
-    ring, bore, tread = ring + first, bore + first, tread + first
-    running = _faces(rail, surface[np.abs(rail_nodes[surface, 0]) <= reach + 0.5 * thickness])
-    return PressMesh(
-        nodes=nodes,
-        rail=rail,
-        wheel=ring,
-        symmetry=np.flatnonzero(np.abs(nodes[:, 1]) < 1e-12),
-        rail_ends=rail_ends,
-        bore=bore,
-        running_surface=running,
-        tread=_faces(ring, tread) + np.array([len(rail), 0]),
-    )
+    if geometry is not None:
+        given = geometry.rail.name, geometry.wheel.name, geometry.radius
+        meshed = cell.profile, wheel_curve(wheel.profile).name, wheel.dimensions.radius
+        problems += [
+            f"{what} = {g}: must be what is meshed, {m}"
+            for what, g, m in zip(
+                ("geometry's rail", "geometry's wheel", "geometry's radius in m"),
+                given,
+                meshed,
+                strict=True,
+            )
+            if g != m
+        ]
+    return problems
 
 
-def _rail(
-    cell: CellRecipe, slices: int, thickness: float
-) -> tuple[Array, IntArray, IntArray, IntArray]:
-    """Nodes, elements, nodes of the end planes, nodes of the fine running surface."""
-    section, _, _ = section_of(cell)
-    n, planes = len(section.nodes), np.arange(slices + 1)
-    nodes = np.empty((len(planes), n, 3))
-    nodes[:, :, 0] = (thickness * (planes - 0.5 * slices))[:, None]
-    nodes[:, :, 1:] = section.nodes
-    q = section.quads
-    # corners 0 3 7 4 on one plane, 1 2 6 5 on the next, as `solids.extrusion.extrude`
-    element = np.stack([q[:, 0], q[:, 0] + n, q[:, 1] + n, q[:, 1]], axis=1)
-    element = np.hstack([element, np.stack([q[:, 3], q[:, 3] + n, q[:, 2] + n, q[:, 2]], axis=1)])
-    elements = (element[None] + n * planes[:-1, None, None]).reshape(-1, 8)
-    ends = np.r_[np.arange(n), n * slices + np.arange(n)]
-    return nodes.reshape(-1, 3), elements, ends, (n * planes[:, None] + section.surface).ravel()
-
-
-def _wheel(recipe: WheelRecipe) -> tuple[Array, IntArray, IntArray, IntArray]:
-    """Nodes, elements, nodes of the bore, nodes of the fine tread."""
-    section, right = recipe.section(), recipe.angles
-    angles = np.concatenate([-right[-2:0:-1], right])  # the top, at pi, is there once
-    n, planes = len(section.nodes), np.arange(len(angles))
-    y, rho = section.nodes.T
-    nodes = np.empty((len(angles), n, 3))
-    nodes[:, :, 0] = np.sin(angles)[:, None] * rho
-    nodes[:, :, 1] = y
-    nodes[:, :, 2] = recipe.dimensions.radius - np.cos(angles)[:, None] * rho
-    following = np.roll(planes, -1)
-    # quads turn counter-clockwise in (y, rho), which looks along -X at the bottom
-    q = section.quads
-    elements = np.concatenate(
-        [
-            n * following[:, None, None] + q[None],
-            n * planes[:, None, None] + q[None],
-        ],
-        axis=2,
-    ).reshape(-1, 8)
-    fine = np.flatnonzero(np.abs(angles) <= right[len(recipe.x) // 2] * (1 + 1e-9))
-    tread = (n * fine[:, None] + section.tread).ravel()
-    return nodes.reshape(-1, 3), elements, (n * planes[:, None] + section.bore).ravel(), tread
+def _placed(rail: Body, wheel: Body, geometry: Geometry | None) -> Array:
+    """Nodes of both bodies in track axes."""
+    if geometry is None:
+        return np.vstack([rail.nodes, wheel.nodes])
+    pose = geometry.pose
+    lower = np.column_stack([rail.nodes[:, 0], pose.track_of_rail(rail.nodes[:, 1:])])
+    # the tape circle's lowest point level with the crown, then down to the first touch
+    upper = wheel.nodes @ pose.to_track.T + [0.0, pose.lateral, -geometry.touch.travel]
+    return np.vstack([lower, upper])
 
 
 def _faces(elements: IntArray, nodes: IntArray) -> IntArray:

@@ -52,7 +52,9 @@ def calculix_version() -> str:
     return found.group(1) if found else "unknown"
 
 
-def run_calculix(text: str, penalty: float, timeout: float = 3600.0) -> CalculixRun:
+def run_calculix(
+    text: str, penalty: float, symmetric: bool = True, timeout: float = 3600.0
+) -> CalculixRun:
     """Solve an input file of `calculix_input`.
 
     Parameters
@@ -61,6 +63,8 @@ def run_calculix(text: str, penalty: float, timeout: float = 3600.0) -> Calculix
         The input file.
     penalty : float
         That it was written with, in Pa/m.
+    symmetric : bool
+        It is a half model.
     timeout : float
         In s of wall time.
 
@@ -93,7 +97,7 @@ def run_calculix(text: str, penalty: float, timeout: float = 3600.0) -> Calculix
             last = " ".join(done.stdout.split()[-20:])
             raise NumericalError(f"CalculiX: stopped with status {done.returncode}: ... {last}")
         return CalculixRun(
-            press=read_press(folder / "press.dat", penalty),
+            press=read_press(folder / "press.dat", penalty, symmetric),
             version=version,
             solutions=done.stdout.count("Factoring the system"),
             cpu_seconds=(ended.children_user - began.children_user)

@@ -5,17 +5,24 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
+
 from contactstudy import __version__
-from contactstudy.contact.hertz import HertzContact, contact_modulus, hertz_contact
+from contactstudy.contact.hertz import contact_modulus, hertz_contact
 from contactstudy.exceptions import InputError
 from contactstudy.export.calculix import calculix_input
 from contactstudy.export.press_mesh import PressMesh, press_mesh
 from contactstudy.profiles.rail import rail_profile
+from contactstudy.solids.recipe import CellRecipe
+from contactstudy.solids.wheel_recipe import WheelRecipe
+from contactstudy.solvers.geometry import Geometry
 from contactstudy.study import build
 from contactstudy.study.files import writing
 from contactstudy.study.messages import complaint, did_you_mean
+from contactstudy.study.placing import geometry
 from contactstudy.study.runs import SurfaceRun
 from contactstudy.study.schema import Study
+from contactstudy.study.vehicles import vehicle
 from contactstudy.units import UnitError, to_si
 from contactstudy.validation import raise_if
 
@@ -86,38 +93,29 @@ def export_press(
     name = _run(study, run, problems)
     if study.track.rail == "given":
         problems.append('track.rail = "given": a rail of given values has no section to mesh')
-    if study.solid.section == "whole":
-        problems.append('solid.section = "whole": only a half section can be exported')
+    elif study.solid.section == "whole":
+        problems += _other_surfaces(study)
     if name and study.wheel(name) == "rigid":
         problems.append(f'wheel = "rigid" in the run {name}: only an elastic wheel can be exported')
-    newtons = given("--load", load, "N", float(build.vehicle(study).static_loads[0]))
+    newtons = given("--load", load, "N", float(vehicle(study).static_loads[0]))
     length = given("--rail-length", rail_length, "m", CELLS * study.solid.cell_length)
     if out.is_dir():
         problems.append(f"--out {out}: is a folder; give the name of a file")
     raise_if(problems)
-    hertz = _hertz(study, newtons)
-    cell, wheel = build.recipe(study), build.wheel_recipe(study)
-    reach, half = wheel.contact_half_length, wheel.contact_half_width
-    if hertz.semi_axis_x > reach or hertz.semi_axis_y > half:
-        raise InputError(
-            f"load = {newtons:.6g} N: the patch, {hertz.semi_axis_x:.4g} m along and "
-            f"{hertz.semi_axis_y:.4g} m across from its middle after Hertz, does not fit on the "
-            f"finely meshed tread: enlarge solid.contact_half_length (now {reach:g} m) or "
-            f"solid.contact_half_width ({half:g} m)"
-        )
-    mesh = press_mesh(cell, wheel, length)
+    cell, wheel, placed = build.recipe(study), build.wheel_recipe(study), geometry(study)
+    start = _start(study, newtons) if placed is None else _start_whole(cell, wheel, placed, newtons)
+    mesh = press_mesh(cell, wheel, length, placed)
     header = (
         f"contactstudy {__version__}: static press of an elastic wheel on an elastic rail",
         f"study {study.name}: {study.title}; run {name}",
-        f"wheel load {newtons:.6g} N on the hub (half of it here), penalty "
+        f"wheel load {newtons:.6g} N on the hub{' (half of it here)' * mesh.symmetric}, penalty "
         f"{study.solid.penalty:.6g} Pa/m",
         f"rail {cell.profile}, {length:g} m, clamped at both ends; elements of {cell.size:g} m, "
         f"slices of {cell.length / cell.n_slices:g} m; {len(mesh.rail)} elements",
         f"wheel {wheel.profile}, radius {wheel.dimensions.radius:g} m, elements of "
         f"{wheel.size:g} m; {len(mesh.wheel)} elements",
         f"E = {cell.youngs_modulus:.6g} Pa, nu = {cell.poisson_ratio:g}",
-        "half model y >= 0; X along the rail, Y lateral, Z up; origin at first touch",
-        "results of the second step: approach = -U3 of HUB; force and area = twice those of CF",
+        *_axes(placed),
     )
     text = calculix_input(
         mesh,
@@ -125,7 +123,7 @@ def export_press(
         study.solid.penalty,
         cell.youngs_modulus,
         cell.poisson_ratio,
-        hertz.approach,
+        start,
         header,
     )
     with writing(out) as temporary:
@@ -133,10 +131,84 @@ def export_press(
     return Exported(newtons, length, mesh)
 
 
-def _hertz(study: Study, load: float) -> HertzContact:
+def _axes(placed: Geometry | None) -> tuple[str, ...]:
+    """Lines of the header: axes, position of the bodies, where the results are."""
+    if placed is None:
+        return (
+            "half model y >= 0; X along the rail, Y lateral, Z up; origin at first touch",
+            "results of the second step: approach = -U3 of HUB; force and area = twice those of CF",
+        )
+    pose = placed.pose
+    return (
+        "whole model in axes of the track: X along the rail, Y to the field side, Z up; origin at "
+        "the crown of the rail, in the middle of its length",
+        f"rail turned about X, its top to -Y, by {pose.rail_inclination:.6g} rad; wheel turned "
+        f"about X, field side up, by {pose.roll:.6g} rad, then about Z by {pose.yaw:.6g} rad; the "
+        f"lowest point of its tape circle at Y = {pose.lateral:.6g} m",
+        "the smooth profiles just touch; the hub moves along Z only",
+        "results of the second step: approach = -U3 of HUB; force on the wheel and area in CF",
+    )
+
+
+def _other_surfaces(study: Study) -> list[str]:
+    """Surfaces in the gap that are not those of the meshes, which alone are written."""
+    problems, meshed = [], study.track.rail
+    if study.wheelset.rail_profile not in ("", meshed):
+        allowed = f"the faces of the mesh are those of {meshed}; only it can be exported"
+        problems.append(complaint("wheelset.rail_profile", study.wheelset.rail_profile, allowed))
+    if study.scan.used:
+        problems.append("scan: scanned surfaces are not meshed; only drawn ones can be exported")
+    return problems
+
+
+def _start(study: Study, load: float) -> float:
+    """Hertz's approach in m of a wheel centred on its rail, whose patch the fine tread holds."""
+    wheel = build.wheel_recipe(study)
     E, nu = study.track.youngs_modulus, study.track.poisson_ratio
     crown = rail_profile(study.track.rail).crown_radius
-    return hertz_contact(load, contact_modulus(E, nu), study.vehicle.wheel_radius, crown)
+    hertz = hertz_contact(load, contact_modulus(E, nu), study.vehicle.wheel_radius, crown)
+    reach, half = wheel.contact_half_length, wheel.contact_half_width
+    if hertz.semi_axis_x > reach or hertz.semi_axis_y > half:
+        raise _too_wide(
+            load,
+            f"{hertz.semi_axis_x:.4g} m along and {hertz.semi_axis_y:.4g} m across from its "
+            "middle after Hertz",
+            wheel,
+        )
+    return hertz.approach
+
+
+def _start_whole(cell: CellRecipe, wheel: WheelRecipe, placed: Geometry, load: float) -> float:
+    """Approach in m at which faces of whole sections overlap, their patch within the fine zones.
+
+    The patch is about where the bodies, undeformed, overlap at 0.55 of the approach (Kik &
+    Piotrowski 1996).
+    """
+    # somewhat more than steel wheels approach, as for the middle of the fine zones
+    approach = 80e-6 * (load / 70e3) ** (2 / 3)
+    s, arc = placed.overlap(0.55 * approach)
+    along = float(np.sqrt(2 * placed.radius * 0.55 * approach))
+    on_rail = np.abs(arc - cell.contact_centre)
+    tread = wheel.y
+    outside = s.min() < tread[0] or s.max() > tread[-1] or on_rail.max() > cell.contact_half_width
+    if outside or along > wheel.contact_half_length:
+        raise _too_wide(
+            load,
+            f"about {along:.4g} m along from its middle and from {1e3 * s.min():.4g} to "
+            f"{1e3 * s.max():.4g} mm of the wheel's profile",
+            wheel,
+        )
+    # the flat faces lie inside the smooth bodies by their sagitta h^2/8 k
+    bend = np.abs(placed.rail.curvature(arc)).max() + np.abs(placed.wheel.curvature(s)).max()
+    return approach + wheel.size**2 / 8 * float(bend + 1 / placed.radius)
+
+
+def _too_wide(load: float, patch: str, wheel: WheelRecipe) -> InputError:
+    return InputError(
+        f"load = {load:.6g} N: the patch, {patch}, does not fit on the finely meshed tread: "
+        f"enlarge solid.contact_half_length (now {wheel.contact_half_length:g} m) or "
+        f"solid.contact_half_width ({wheel.contact_half_width:g} m)"
+    )
 
 
 def _run(study: Study, wanted: str | None, problems: list[str]) -> str | None:

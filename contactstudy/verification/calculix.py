@@ -100,23 +100,14 @@ def _case(name: str, model: _Model, smooth_band: float | None) -> CaseResult:
     wheel = cached(elastic_wheel, WheelFlexibility, model.wheel)
     run, middle = model.calculix(mesh), 0.5 * model.length
     flat = facet_press(track, wheel, LOAD, PENALTY, middle)
-    theirs = FacetPress(run.press.approach, run.press.area, _on_grid(mesh, run, wheel))
+    theirs = read_as_facets(mesh, run)
     smooth = _smooth(track, wheel, middle)
     source = f"CalculiX {run.version}"
-    apart = np.linalg.norm(flat.face_pressure - theirs.face_pressure)
     checks = (
         Check("vertical contact force", 1e-3 * LOAD, 1e-3 * run.press.force, "kN", source, 1e-3),
-        *_compared("flat faces", flat, theirs, source, (1e-3, 0.02, 0.01)),
-        Check(
-            "difference of the pressures, flat faces",
-            float(apart / np.linalg.norm(theirs.face_pressure)),
-            0.03,
-            "",
-            source,
-            0.0,
-            sense="at_most",
-        ),
-        *_compared("smooth profiles", smooth, theirs, source, (smooth_band, None, None)),
+        *compared("flat faces", flat, theirs, source, (1e-3, 0.02, 0.01)),
+        pressures_apart(flat, theirs, source),
+        *compared("smooth profiles", smooth, theirs, source, (smooth_band, None, None)),
         Check(
             "peak mean pressure of a face, smooth profiles, against Hertz's p0",
             1e-6 * float(smooth.face_pressure.max()),
@@ -152,13 +143,14 @@ def _case(name: str, model: _Model, smooth_band: float | None) -> CaseResult:
     )
 
 
-def _compared(
+def compared(
     how: str,
     ours: FacetPress,
     theirs: FacetPress,
     source: str,
     bands: tuple[float | None, float | None, float | None],
 ) -> tuple[Check, Check, Check]:
+    """Approach, area and peak pressure of two presses, with their bands."""
     peak, reference = float(ours.face_pressure.max()), float(theirs.face_pressure.max())
     return (
         Check(
@@ -176,17 +168,30 @@ def _compared(
     )
 
 
-def _on_grid(mesh: PressMesh, run: CalculixRun, wheel: WheelFlexibility) -> Array:
-    """CalculiX's mean pressures on the grid of the tread's faces."""
-    corners = mesh.corners(mesh.tread)
-    # area of a plane quadrilateral from its diagonals, of both halves
+def pressures_apart(ours: FacetPress, theirs: FacetPress, source: str) -> Check:
+    """Root mean square of the difference of the faces' pressures, relative to theirs."""
+    apart = np.linalg.norm(ours.face_pressure - theirs.face_pressure)
+    return Check(
+        "difference of the pressures, flat faces",
+        float(apart / np.linalg.norm(theirs.face_pressure)),
+        0.03,
+        "",
+        source,
+        0.0,
+        sense="at_most",
+    )
+
+
+def read_as_facets(mesh: PressMesh, run: CalculixRun) -> FacetPress:
+    """CalculiX's press as one of ours, its mean pressures on the grid of the tread's faces."""
+    corners, press = mesh.corners(mesh.tread), run.press
+    # area of a plane quadrilateral from its diagonals, of both halves of a half model
     diagonals = corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]
-    area = np.linalg.norm(np.cross(*diagonals), axis=1)
-    centre = corners.mean(axis=1)
-    pressure = np.zeros((len(wheel.x) - 1, len(wheel.y) - 1))
-    at = np.searchsorted(wheel.x, centre[:, 0]) - 1, np.searchsorted(wheel.y, centre[:, 1]) - 1
-    pressure[at] = run.press.face_pressure(mesh.tread[:, 0], area)
-    return pressure
+    area = np.linalg.norm(np.cross(*diagonals), axis=1) * (1.0 if mesh.symmetric else 0.5)
+    mx, my = mesh.tread_nodes.shape
+    pressure = np.zeros((mx - 1, my - 1))
+    pressure[mesh.places(mesh.tread)] = press.face_pressure(mesh.tread[:, 0], area)
+    return FacetPress(press.approach, press.area, pressure, press.lateral_force)
 
 
 def _smooth(track: SolidTrack | UnreducedTrack, wheel: WheelFlexibility, x: float) -> FacetPress:

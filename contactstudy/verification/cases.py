@@ -85,6 +85,12 @@ CASES: tuple[Case, ...] = (
     Case("wheel_statics", "wheel_statics:statics", slow=True),
     Case("calculix_coarse", "calculix:press_on_coarse_mesh", needs=("program:ccx",)),
     Case("calculix", "calculix:press_on_default_mesh", slow=True, needs=("program:ccx",)),
+    Case(
+        "calculix_whole",
+        "calculix_whole:press_of_whole_sections",
+        slow=True,
+        needs=("program:ccx",),
+    ),
 )
 
 
