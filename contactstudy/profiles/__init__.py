@@ -1,6 +1,7 @@
 """Cross-sections of rail and wheel, and what a beam needs to know of them."""
 
-from contactstudy.profiles.curve import ProfileCurve, rail_curve, wheel_curve
+from contactstudy.profiles.curve import ProfileCurve
+from contactstudy.profiles.named import rail_curve, wheel_curve
 from contactstudy.profiles.rail import RailProfile, rail_profile
 from contactstudy.profiles.section import (
     SectionProperties,

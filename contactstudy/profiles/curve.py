@@ -1,26 +1,18 @@
-"""Profiles of rail and wheel as curves by arc length, and the closest point on them."""
+"""Profiles of rail and wheel as curves by arc length."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
-from pathlib import Path
-from typing import Literal
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from contactstudy.exceptions import InputError, NumericalError
-from contactstudy.profiles.geometry import Arc
-from contactstudy.profiles.pieces import ArcPiece, Frame, LinePiece, Piece
-from contactstudy.profiles.rail import running_pieces
-from contactstudy.profiles.wheel import wheel_profile
+from contactstudy.exceptions import InputError
+from contactstudy.profiles.closest import ClosestPoint
+from contactstudy.profiles.pieces import Frame, Piece
 
 Array = NDArray[np.float64]
 
-# largest spacing of the table of points among which the closest is looked for first [m]
-_SPACING = 0.5e-3
-# numbers in one block of the table of distances
-_BLOCK = 4_000_000
 _ITERATIONS = 100
 
 
@@ -120,7 +112,7 @@ class ProfileCurve:
             If a position lies beyond the curve's ends, or y does not grow along the curve.
         """
         b = np.asarray(y, dtype=float)
-        s, p, _ = self._table
+        s, p = self._closest_points.samples
         if np.any(np.diff(p[:, 0]) <= 0):
             raise InputError(f"profile {self.name}: y does not grow all along the curve")
         if not np.all((b >= p[0, 0] - 1e-12) & (b <= p[-1, 0] + 1e-12)):
@@ -143,14 +135,9 @@ class ProfileCurve:
         return x.reshape(b.shape)
 
     @cached_property
-    def _table(self) -> tuple[Array, Array, float]:
-        """Arc lengths and points among which the closest is looked for, greatest curvature."""
-        rows = []
-        for a, b in zip(self._joints[:-1], self._joints[1:], strict=True):
-            rows.append(np.linspace(a, b, max(int(np.ceil((b - a) / _SPACING)), 4) + 1)[:-1])
-        s = np.concatenate([*rows, self._joints[-1:]])
-        point, _, turn = self._frame(s)
-        return s, point, float(np.abs(turn).max())
+    def _closest_points(self) -> ClosestPoint:
+        joints = [float(s) for s in self._joints]
+        return ClosestPoint(self.name, self._frame, joints, self._side)
 
     def project(self, points: Array) -> tuple[Array, Array]:
         """Closest points of the curve.
@@ -175,73 +162,7 @@ class ProfileCurve:
         InputError
             If points are not finite or not (n, 2).
         """
-        p = np.asarray(points, dtype=float)
-        if p.ndim != 2 or p.shape[1] != 2 or not np.all(np.isfinite(p)):
-            raise InputError(
-                f"projection on {self.name}: points must be finite (n, 2), got {p.shape}"
-            )
-        s, distance = np.empty(len(p)), np.empty(len(p))
-        block = max(_BLOCK // len(self._table[0]), 1)
-        for first in range(0, len(p), block):
-            part = slice(first, first + block)
-            s[part], distance[part] = self._project(p[part])
-        return s, distance
-
-    def _project(self, p: Array) -> tuple[Array, Array]:
-        row, low, high, start = self._brackets(p)
-        s = self._closest(p[row], low, high, start)
-        c, d, _ = self._frame(s)
-        off = p[row] - c
-        distance = self._side * (d[:, 0] * off[:, 1] - d[:, 1] * off[:, 0])
-        # the nearest candidate of every point; candidates come sorted by point
-        order = np.lexsort((np.hypot(off[:, 0], off[:, 1]), row))
-        first = order[np.searchsorted(row[order], np.arange(len(p)))]
-        return s[first], distance[first]
-
-    def _brackets(self, p: Array) -> tuple[NDArray[np.intp], Array, Array, Array]:
-        """Candidates: number of the point, lower and upper end of the bracket, start."""
-        s, table, bend = self._table
-        square = (p[:, :1] - table[:, 0]) ** 2 + (p[:, 1:] - table[:, 1]) ** 2
-        least = square.min(axis=1)
-        # a foot lies within one spacing h of its sample: D <= d^2 + h^2 (1 + |k| d)
-        slack = _SPACING**2 * (1.0 + bend * np.sqrt(least))
-        near = square <= (least + slack)[:, None]
-        near[:, 1:] &= square[:, 1:] <= square[:, :-1]
-        near[:, :-1] &= square[:, :-1] <= square[:, 1:]
-        # a point past an end has a foot on the straight continuation, however far away
-        _, ahead, _ = self._frame(s[[0, -1]])
-        near[:, 0] |= (p - table[0]) @ ahead[0] < 0
-        near[:, -1] |= (p - table[-1]) @ ahead[1] > 0
-        row, k = np.nonzero(near)
-        # the straight continuations reach as far as any point can need
-        far = np.sqrt(square[row, k]) + _SPACING
-        low = np.where(k > 0, s[np.maximum(k - 1, 0)], s[0] - far)
-        high = np.where(k < len(s) - 1, s[np.minimum(k + 1, len(s) - 1)], s[-1] + far)
-        return row, low, high, s[k]
-
-    def _closest(self, p: Array, low: Array, high: Array, start: Array) -> Array:
-        """Newton on f(s) = (c - p) . t, f' = 1 + k (c - p) . n, bisecting where it leaves."""
-        x, todo = start.copy(), np.arange(len(p))
-        for _ in range(_ITERATIONS):
-            c, d, turn = self._frame(x[todo])
-            off = c - p[todo]
-            f = off[:, 0] * d[:, 0] + off[:, 1] * d[:, 1]
-            slope = 1.0 + turn * (off[:, 1] * d[:, 0] - off[:, 0] * d[:, 1])
-            high[todo] = np.where(f > 0, x[todo], high[todo])
-            low[todo] = np.where(f > 0, low[todo], x[todo])
-            with np.errstate(divide="ignore", invalid="ignore"):
-                new = x[todo] - f / slope
-            good = (slope > 0) & (new >= low[todo]) & (new <= high[todo])
-            new = np.where(good, new, 0.5 * (low[todo] + high[todo]))
-            moved = np.abs(new - x[todo])
-            x[todo] = new
-            todo = todo[moved > 1e-15]
-            if not len(todo):
-                return x
-        raise NumericalError(
-            f"projection on {self.name}: {len(todo)} points do not settle, the first at "
-            f"(y, z) = ({p[todo[0], 0]:.6g}, {p[todo[0], 1]:.6g}) m"
-        )
+        return self._closest_points(points)
 
 
 def joined(
@@ -262,81 +183,3 @@ def joined(
     """
     curve = ProfileCurve(name, tuple(pieces), 0.0, upper, residual)
     return ProfileCurve(name, curve.pieces, -float(curve.arc_of_y(zero)), upper, residual)
-
-
-def rail_curve(name: str = "60E1") -> ProfileCurve:
-    """Running surface of a rail with both side faces, in the rail's own axes.
-
-    s = 0 at the crown, s grows with y; normals point up and out.
-
-    Parameters
-    ----------
-    name : str
-        ``"60E1"``, ``"UIC60-Manchester"``, the rail of the Manchester contact benchmark, or the
-        name of a CSV file with a worn profile (`contactstudy.profiles.worn`).
-
-    Raises
-    ------
-    InputError
-        If there is no such profile, or the file is faulty.
-    """
-    return _worn(name, "rail") if _is_file(name) else _drawn_rail(name)
-
-
-def wheel_curve(name: str) -> ProfileCurve:
-    """Profile of a wheel: y from the tape circle to the field side, z up, normals pointing down.
-
-    s = 0 and z = 0 at the tape circle's lowest point; s grows with y.
-
-    Parameters
-    ----------
-    name : str
-        ``"cylinder"``, ``"cone"`` (1:20), ``"S1002"``, or the name of a CSV file with a worn
-        profile (`contactstudy.profiles.worn`).
-
-    Raises
-    ------
-    InputError
-        If there is no such profile, or the file is faulty.
-    """
-    return _worn(name, "wheel") if _is_file(name) else _drawn_wheel(name)
-
-
-@lru_cache(maxsize=16)
-def _drawn_rail(name: str) -> ProfileCurve:
-    right: list[Piece] = []
-    left: list[Piece] = []
-    for p in running_pieces(name):
-        ends = p.start, p.end
-        mirrored = (-p.end[0], p.end[1]), (-p.start[0], p.start[1])
-        if isinstance(p, Arc):
-            right.append(ArcPiece(p.centre, *ends))
-            left.insert(0, ArcPiece((-p.centre[0], p.centre[1]), *mirrored))
-        else:
-            right.append(LinePiece(*ends))
-            left.insert(0, LinePiece(*mirrored))
-    return ProfileCurve(name, (*left, *right), -sum(p.length for p in left), upper=True)
-
-
-@lru_cache(maxsize=16)
-def _drawn_wheel(name: str) -> ProfileCurve:
-    profile = wheel_profile(name)
-    return joined(profile.name, profile.pieces, 0.0, upper=False)
-
-
-def _is_file(name: str) -> bool:
-    return Path(name).suffix.lower() == ".csv"
-
-
-def _worn(name: str, body: Literal["rail", "wheel"]) -> ProfileCurve:
-    path = Path(name)
-    # a file that has changed is read again
-    return _read(path, body, path.stat().st_mtime_ns if path.is_file() else 0)
-
-
-@lru_cache(maxsize=16)
-def _read(path: Path, body: Literal["rail", "wheel"], changed: int) -> ProfileCurve:
-    # worn profiles are made of this module's curves
-    from contactstudy.profiles.worn import worn_curve
-
-    return worn_curve(path, body)

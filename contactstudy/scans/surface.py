@@ -8,14 +8,9 @@ import trimesh
 
 from contactstudy.exceptions import InputError
 from contactstudy.profiles.curve import ProfileCurve
-from contactstudy.profiles.scanned import (
-    RAIL_DEPTH,
-    STEEPEST,
-    WHEEL_DEPTH,
-    ScanFit,
-    fit_rail_head,
-    fit_wheel_tread,
-)
+from contactstudy.profiles.scan_fit import STEEPEST, ScanFit
+from contactstudy.profiles.scanned_rail import RAIL_DEPTH, fit_rail_head
+from contactstudy.profiles.scanned_wheel import WHEEL_DEPTH, fit_wheel_tread
 from contactstudy.scans.faults import triangles
 from contactstudy.scans.reading import Body, read_mesh
 

@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contactstudy.exceptions import InputError
+from contactstudy.solids.boussinesq import boussinesq
 from contactstudy.solids.chain import BlockTridiagonal
-from contactstudy.solids.hexahedron import hex_stiffness, strain_operators
-from contactstudy.solids.stress import hex_stress, nodal_stress
+from contactstudy.solids.slabs import slab_stiffness, slab_stress
 
 Array = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -38,71 +38,6 @@ class HalfSpacePatch:
     y: Array
     flexibility: Array
     symmetric: tuple[bool, bool]
-
-
-def graded_lines(fine_length: float, size: float, total: float, growth: float = 1.35) -> Array:
-    """Lines from 0: equal steps up to `fine_length`, then growing geometrically to `total`.
-
-    Parameters
-    ----------
-    fine_length, size, total : float
-        Lengths in m; the fine part is rounded up to whole steps.
-    growth : float
-        Ratio of neighbouring steps in the graded part (adjusted so that it ends at `total`).
-
-    Returns
-    -------
-    ndarray (n,)
-        Increasing coordinates in m.
-    """
-    if not (0 < size <= fine_length < total) or growth < 1:
-        raise InputError(
-            f"graded mesh: needs 0 < size ({size} m) <= fine length ({fine_length} m) < total "
-            f"({total} m) and growth >= 1 ({growth})"
-        )
-    n = int(np.ceil(fine_length / size - 1e-9))
-    fine = size * np.arange(n + 1)
-    rest = total - fine[-1]
-    # size * (q + q^2 + ... + q^m) = rest: m from the wanted growth, then q by bisection
-    m = max(int(np.ceil(np.log1p(rest / size * (growth - 1) / growth) / np.log(growth))), 1)
-    low, high = 1e-3, growth
-    for _ in range(200):
-        q = 0.5 * (low + high)
-        if size * np.sum(q ** np.arange(1, m + 1)) < rest:
-            low = q
-        else:
-            high = q
-    steps = size * q ** np.arange(1, m + 1)
-    return np.concatenate([fine, fine[-1] + rest * np.cumsum(steps) / steps.sum()])
-
-
-def boussinesq(
-    x: Array, y: Array, depth: Array, youngs_modulus: float, poisson_ratio: float
-) -> Array:
-    """Displacement of a half-space under a unit normal point load at the origin.
-
-    Johnson, Contact Mechanics (1985), eq. (3.18), with R = |(x, y, depth)|::
-
-        u_r = P/(4 pi G) [ r z/R^3 - (1 - 2 nu) r/(R (R + z)) ]
-        u_z = P/(4 pi G) [ z^2/R^3 + 2 (1 - nu)/R ]
-
-    Parameters
-    ----------
-    x, y, depth : ndarray (...)
-        Position in m, depth positive into the body; not the origin.
-    youngs_modulus, poisson_ratio : float
-        Elastic constants, E in Pa.
-
-    Returns
-    -------
-    ndarray (..., 3)
-        Displacement along (x, y, depth) in m/N for a load into the body.
-    """
-    G = youngs_modulus / (2 * (1 + poisson_ratio))
-    R = np.sqrt(x**2 + y**2 + depth**2)
-    radial = depth / R**3 - (1 - 2 * poisson_ratio) / (R * (R + depth))
-    u = np.stack([radial * x, radial * y, depth**2 / R**3 + 2 * (1 - poisson_ratio) / R], axis=-1)
-    return np.asarray(u / (4 * np.pi * G))
 
 
 def _images(point: tuple[float, float], symmetric: tuple[bool, bool]) -> list[tuple[float, float]]:
@@ -154,7 +89,7 @@ class HalfSpaceBlock:
         self._constants = (youngs_modulus, poisson_ratio)
         self.nodes = np.stack(np.meshgrid(x, y, z, indexing="ij"), axis=-1)
         nx, ny, nz = self.nodes.shape[:3]
-        self._slabs = self._stiffness()
+        self._slabs = slab_stiffness(self.nodes, youngs_modulus, poisson_ratio)
         # what is fixed: the outer faces wholly, the symmetry planes in their normal
         fixed = np.zeros((nx, ny, nz, 3), dtype=bool)
         fixed[-1], fixed[:, -1], fixed[:, :, -1] = True, True, True
@@ -176,38 +111,6 @@ class HalfSpaceBlock:
             if k + 1 in self._keep:
                 upper.append(self._slabs[k][:n, n:][np.ix_(on, self._free[k + 1])])
         self._factor = BlockTridiagonal(diagonal, upper)
-
-    def _elements(self) -> IntArray:
-        """Corner nodes of the elements between planes 0 and 1, (m, 8).
-
-        Reference axes (xi, eta, zeta) lie along (y, depth, x), a right-handed triple. A plane's
-        node index is ``iy*nz + iz``.
-        """
-        ny, nz = self.nodes.shape[1:3]
-        plane = np.arange(ny * nz).reshape(ny, nz)
-        quads = np.stack(
-            [plane[:-1, :-1], plane[1:, :-1], plane[1:, 1:], plane[:-1, 1:]], axis=-1
-        ).reshape(-1, 4)
-        return np.concatenate([quads, quads + ny * nz], axis=1)
-
-    def _stiffness(self) -> list[Array]:
-        """Stiffness of every slab on its two planes; equally thick ones share one array."""
-        ny, nz = self.nodes.shape[1:3]
-        elements, n = self._elements(), 3 * ny * nz
-        dofs = (3 * elements[:, :, None] + np.arange(3)).reshape(-1, 24)
-        made: dict[float, Array] = {}
-        slabs = []
-        for k, thickness in enumerate(np.diff(self._lines[0]).round(12).tolist()):
-            if thickness not in made:
-                K = hex_stiffness(self._corners(k), *self._constants)
-                made[thickness] = np.zeros((2 * n, 2 * n))
-                np.add.at(made[thickness], (dofs[:, :, None], dofs[:, None, :]), K)
-            slabs.append(made[thickness])
-        return slabs
-
-    def _corners(self, k: int) -> Array:
-        """Coordinates of the elements behind plane k, (m, 8, 3)."""
-        return np.asarray(self.nodes[k : k + 2].reshape(-1, 3)[self._elements()])
 
     def _loaded(self, loaded: tuple[slice, slice]) -> tuple[IntArray, IntArray]:
         nx, ny = self.nodes.shape[:2]
@@ -287,18 +190,7 @@ class HalfSpaceBlock:
         ndarray (nx, ny, nz, 6)
             (xx, yy, zz, yz, zx, xy) in Pa in the axes (x, y, depth).
         """
-        nx, ny, nz = self.nodes.shape[:3]
-        elements, u = self._elements(), displacement.reshape(nx, -1, 3)
-        gauss, volume = [], []
-        for k in range(nx - 1):
-            corners = self._corners(k)
-            gauss.append(
-                hex_stress(corners, u[k : k + 2].reshape(-1, 3)[elements], *self._constants)
-            )
-            volume.append(strain_operators(corners)[2].sum(axis=1))
-        numbers = np.concatenate([elements + k * ny * nz for k in range(nx - 1)])
-        nodal = nodal_stress(np.concatenate(gauss), numbers, np.concatenate(volume), nx * ny * nz)
-        return nodal.reshape(nx, ny, nz, 6)
+        return slab_stress(self.nodes, displacement, *self._constants)
 
 
 def half_space_patch(

@@ -16,7 +16,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from contactstudy.profiles.curve import wheel_curve
+from contactstudy.profiles.named import wheel_curve
 from contactstudy.profiles.rail import rail_profile
 from contactstudy.solids.chain import BlockTridiagonal, Slice, repeat
 from contactstudy.solids.ring import ring_slice

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from contactstudy.profiles.curve import wheel_curve
+from contactstudy.profiles.named import wheel_curve
 from contactstudy.profiles.wheel import wheel_profile
 from contactstudy.profiles.wheel_body import WheelDimensions, file_digest
 from contactstudy.solids.wheel_section import WheelSection, fine_lines, wheel_section_mesh

@@ -15,7 +15,8 @@ from contactstudy.contact.quadrature import Quadrature
 from contactstudy.contact.search import CandidateList, FacetSearch, grid_surface
 from contactstudy.contact.smooth_touch import SmoothTouch, smooth_touch
 from contactstudy.exceptions import InputError
-from contactstudy.profiles.curve import ProfileCurve, rail_curve, wheel_curve
+from contactstudy.profiles.curve import ProfileCurve
+from contactstudy.profiles.named import rail_curve, wheel_curve
 from contactstudy.profiles.rail import rail_profile
 from contactstudy.profiles.wheel import wheel_profile
 from contactstudy.solids.wheel import WheelFlexibility

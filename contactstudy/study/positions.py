@@ -15,7 +15,8 @@ from pydantic import BeforeValidator, ValidationError
 from contactstudy.contact.hertz import contact_modulus
 from contactstudy.contact.wheelset import Wheelset
 from contactstudy.exceptions import InputError
-from contactstudy.profiles.curve import ProfileCurve, rail_curve, wheel_curve
+from contactstudy.profiles.curve import ProfileCurve
+from contactstudy.profiles.named import rail_curve, wheel_curve
 from contactstudy.study import quantities as q
 from contactstudy.study.loading import find_study
 from contactstudy.study.messages import complaint, from_validation, unknown

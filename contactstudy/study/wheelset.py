@@ -11,7 +11,8 @@ import numpy as np
 from contactstudy.contact.pose import Pose
 from contactstudy.contact.wheelset import SIDES, Side, Wheelset
 from contactstudy.exceptions import ContactStudyError, InputError
-from contactstudy.profiles.curve import ProfileCurve, rail_curve, wheel_curve
+from contactstudy.profiles.curve import ProfileCurve
+from contactstudy.profiles.named import rail_curve, wheel_curve
 from contactstudy.study import quantities as q
 from contactstudy.study.section import Section
 

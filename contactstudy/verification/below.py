@@ -16,7 +16,8 @@ from contactstudy.contact.pressure_field import recovered_pressure
 from contactstudy.contact.quadrature import point_line
 from contactstudy.contact.subsurface import stress_maxima
 from contactstudy.contact.surface import press
-from contactstudy.solids.halfspace import HalfSpaceBlock, graded_lines
+from contactstudy.solids.graded import graded_lines
+from contactstudy.solids.halfspace import HalfSpaceBlock
 from contactstudy.solids.stress import maximum_shear, von_mises
 from contactstudy.verification.strip import Strip
 

@@ -17,7 +17,8 @@ from contactstudy.contact.press import (
 )
 from contactstudy.contact.quadrature import Quadrature, grid_facets, point_line
 from contactstudy.contact.surface import PatchForces, contact_forces, press
-from contactstudy.solids.halfspace import graded_lines, half_space_patch
+from contactstudy.solids.graded import graded_lines
+from contactstudy.solids.halfspace import half_space_patch
 
 Array = NDArray[np.float64]
 

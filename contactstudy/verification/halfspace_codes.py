@@ -12,7 +12,7 @@ from contactstudy.contact.love import LoveGrid, contact_pressure
 from contactstudy.contact.patch_grid import Bodies
 from contactstudy.contact.patches import press_wheel
 from contactstudy.contact.pose import PlacedWheel
-from contactstudy.profiles.curve import rail_curve, wheel_curve
+from contactstudy.profiles.named import rail_curve, wheel_curve
 from contactstudy.verification.check import CaseResult, Check
 from contactstudy.verification.manchester import LOAD, MODULUS, RADIUS, benchmark_pose
 

@@ -10,7 +10,7 @@ from contactstudy.contact.hertz import contact_modulus, line_contact
 from contactstudy.contact.interpolation import SplineLine
 from contactstudy.contact.quadrature import point_line
 from contactstudy.contact.surface import press
-from contactstudy.solids.halfspace import graded_lines
+from contactstudy.solids.graded import graded_lines
 from contactstudy.verification.check import CaseResult, Check, Plot, Table, curve
 from contactstudy.verification.hertz import APPROACH_BAND, BAND, HERTZ, PENALTY
 from contactstudy.verification.order import fitted_order

@@ -16,7 +16,7 @@ from contactstudy.contact.patch import Patch
 from contactstudy.contact.patches import press_wheel
 from contactstudy.contact.pose import PlacedWheel, Pose
 from contactstudy.contact.wheelset import Side, Wheelset
-from contactstudy.profiles.curve import rail_curve, wheel_curve
+from contactstudy.profiles.named import rail_curve, wheel_curve
 from contactstudy.verification.friction import vertical_friction
 
 RAIL = "UIC60-Manchester"

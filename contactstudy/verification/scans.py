@@ -16,7 +16,8 @@ from contactstudy.contact.patch import WheelPress
 from contactstudy.contact.patches import press_wheel
 from contactstudy.contact.pose import PlacedWheel, Pose
 from contactstudy.contact.smooth_touch import smooth_touch
-from contactstudy.profiles.curve import ProfileCurve, rail_curve, wheel_curve
+from contactstudy.profiles.curve import ProfileCurve
+from contactstudy.profiles.named import rail_curve, wheel_curve
 from contactstudy.scans import SurfaceScan, meeting, scanned_surface
 from contactstudy.scans.reading import Body
 from contactstudy.verification.check import CaseResult, Check, Plot, Table, curve

@@ -12,7 +12,7 @@ from contactstudy.contact.points import ContactPoints, contact_points
 from contactstudy.contact.press import press_curve
 from contactstudy.exceptions import InputError, NumericalError
 from contactstudy.profiles import rail_profile, wheel_profile
-from contactstudy.solids.halfspace import boussinesq
+from contactstudy.solids.boussinesq import boussinesq
 
 TOLERANCE = 1e-9
 

@@ -12,7 +12,7 @@ from contactstudy.contact.points import contact_points
 from contactstudy.contact.search import CandidateList, FacetSearch, grid_surface
 from contactstudy.exceptions import NumericalError
 from contactstudy.profiles import rail_profile, wheel_profile
-from contactstudy.solids.halfspace import boussinesq
+from contactstudy.solids.boussinesq import boussinesq
 from contactstudy.track.patch import SurfacePatch
 
 RAIL, STEP, N_TRACK, PENALTY = rail_profile("60E1"), 2e-3, 9, 1e16

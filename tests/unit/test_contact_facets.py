@@ -18,7 +18,7 @@ from contactstudy.contact.placed import placed_points
 from contactstudy.contact.pose import PlacedWheel, Pose
 from contactstudy.contact.smooth_touch import smooth_touch
 from contactstudy.contact.touch import first_touch
-from contactstudy.profiles.curve import rail_curve, wheel_curve
+from contactstudy.profiles.named import rail_curve, wheel_curve
 
 RAIL, WHEELS = rail_curve("60E1"), {n: wheel_curve(n) for n in ("S1002", "cone", "cylinder")}
 RADIUS = 0.46

@@ -12,7 +12,7 @@ from contactstudy.contact.surface import contact_forces
 from contactstudy.contact.touch import first_touch
 from contactstudy.exceptions import InputError
 from contactstudy.profiles import rail_profile, wheel_profile
-from contactstudy.solids.halfspace import boussinesq
+from contactstudy.solids.boussinesq import boussinesq
 
 RAIL, WHEEL = rail_profile("60E1"), wheel_profile("cylinder")
 

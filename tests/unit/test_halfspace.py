@@ -2,7 +2,9 @@ import numpy as np
 import pytest
 
 from contactstudy.exceptions import InputError
-from contactstudy.solids.halfspace import boussinesq, graded_lines, half_space_patch
+from contactstudy.solids.boussinesq import boussinesq
+from contactstudy.solids.graded import graded_lines
+from contactstudy.solids.halfspace import half_space_patch
 
 
 def test_graded_lines() -> None:

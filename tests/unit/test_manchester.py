@@ -7,7 +7,7 @@ import pytest
 
 from contactstudy.contact.patches import press_wheel
 from contactstudy.contact.pose import PlacedWheel
-from contactstudy.profiles.curve import rail_curve, wheel_curve
+from contactstudy.profiles.named import rail_curve, wheel_curve
 from contactstudy.verification.friction import vertical_friction
 from contactstudy.verification.manchester import (
     INCLINATION,

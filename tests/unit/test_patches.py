@@ -13,7 +13,7 @@ from contactstudy.contact.patches import press_wheel
 from contactstudy.contact.pose import PlacedWheel, Pose
 from contactstudy.contact.surface import press
 from contactstudy.exceptions import InputError
-from contactstudy.profiles.curve import rail_curve, wheel_curve
+from contactstudy.profiles.named import rail_curve, wheel_curve
 
 RAIL, MODULUS = rail_curve(), contact_modulus(210e9, 0.3)
 INCLINED = math.atan(1 / 40)

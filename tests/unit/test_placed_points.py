@@ -14,7 +14,7 @@ from contactstudy.contact.smooth_touch import smooth_touch
 from contactstudy.contact.touch import first_touch
 from contactstudy.exceptions import InputError
 from contactstudy.profiles import rail_profile, wheel_profile
-from contactstudy.profiles.curve import rail_curve, wheel_curve
+from contactstudy.profiles.named import rail_curve, wheel_curve
 
 RAIL = rail_curve()
 INCLINED = math.atan(1 / 40)

@@ -12,7 +12,7 @@ import xarray as xr
 from contactstudy import cli
 from contactstudy.contact.hertz import contact_modulus, hertz_contact
 from contactstudy.exceptions import InputError, NumericalError
-from contactstudy.profiles.curve import wheel_curve
+from contactstudy.profiles.named import wheel_curve
 from contactstudy.study import positions_run
 from contactstudy.study.positions import Series, load_positions
 from contactstudy.study.positions_check import check_positions

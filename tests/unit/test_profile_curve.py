@@ -7,7 +7,7 @@ import pytest
 
 from contactstudy.exceptions import InputError
 from contactstudy.profiles import wheel_profile
-from contactstudy.profiles.curve import rail_curve, wheel_curve
+from contactstudy.profiles.named import rail_curve, wheel_curve
 
 NAMES = ("60E1", "S1002", "cone", "cylinder")
 

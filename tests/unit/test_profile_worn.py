@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from contactstudy.exceptions import InputError
-from contactstudy.profiles.curve import rail_curve, wheel_curve
+from contactstudy.profiles.named import rail_curve, wheel_curve
 from contactstudy.profiles.worn import worn_curve
 
 # arc lengths sampled: 60E1 down to the side faces, S1002 from the flange's face on

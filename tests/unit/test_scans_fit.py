@@ -7,8 +7,9 @@ from scipy.spatial import Delaunay
 
 from contactstudy.exceptions import InputError
 from contactstudy.profiles.cloud import fit_cloud
-from contactstudy.profiles.curve import rail_curve, wheel_curve
-from contactstudy.profiles.scanned import fit_rail_head, fit_wheel_tread
+from contactstudy.profiles.named import rail_curve, wheel_curve
+from contactstudy.profiles.scanned_rail import fit_rail_head
+from contactstudy.profiles.scanned_wheel import fit_wheel_tread
 from contactstudy.scans import scanned_surface
 from contactstudy.verification.scans import synthetic_scan
 

@@ -11,8 +11,9 @@ from hypothesis import strategies as st
 from contactstudy.contact.pose import PlacedWheel, Pose
 from contactstudy.contact.smooth_touch import smooth_touch
 from contactstudy.exceptions import InputError
-from contactstudy.profiles.curve import rail_curve, wheel_curve
-from contactstudy.profiles.scanned import fit_rail_head, fit_wheel_tread
+from contactstudy.profiles.named import rail_curve, wheel_curve
+from contactstudy.profiles.scanned_rail import fit_rail_head
+from contactstudy.profiles.scanned_wheel import fit_wheel_tread
 from contactstudy.scans import SurfaceScan, meeting, uncovered
 from contactstudy.scans.surface import developed
 from contactstudy.study.scan import ScanTable

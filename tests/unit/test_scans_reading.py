@@ -5,7 +5,7 @@ import pytest
 import trimesh
 
 from contactstudy.exceptions import InputError
-from contactstudy.profiles.curve import rail_curve, wheel_curve
+from contactstudy.profiles.named import rail_curve, wheel_curve
 from contactstudy.scans import read_mesh, scanned_surface
 from contactstudy.verification.scans import synthetic_scan
 

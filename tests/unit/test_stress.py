@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from contactstudy.solids.halfspace import HalfSpaceBlock, graded_lines
+from contactstudy.solids.graded import graded_lines
+from contactstudy.solids.halfspace import HalfSpaceBlock
 from contactstudy.solids.hexahedron import elasticity_matrix, hex_stiffness, strain_operators
 from contactstudy.solids.stress import hex_stress, nodal_stress
 

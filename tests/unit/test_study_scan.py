@@ -8,7 +8,7 @@ import pytest
 import trimesh
 
 from contactstudy.exceptions import InputError
-from contactstudy.profiles.curve import rail_curve, wheel_curve
+from contactstudy.profiles.named import rail_curve, wheel_curve
 from contactstudy.study import build
 from contactstudy.study.loading import load_study, parse_study
 from contactstudy.study.placing import geometry

@@ -114,7 +114,7 @@ def test_impossible_positions_name_the_key(overrides, parts):
 
 
 def test_worn_wheel_from_a_file_beside_the_study(tmp_path):
-    from contactstudy.profiles.curve import wheel_curve
+    from contactstudy.profiles.named import wheel_curve
 
     s = np.linspace(-0.030, 0.030, 241)
     y, z = wheel_curve("S1002").point(s).T

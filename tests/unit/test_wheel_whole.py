@@ -7,7 +7,7 @@ import pytest
 from scipy.sparse.linalg import splu
 
 from contactstudy.exceptions import InputError
-from contactstudy.profiles.curve import wheel_curve
+from contactstudy.profiles.named import wheel_curve
 from contactstudy.profiles.wheel_body import WheelDimensions
 from contactstudy.solids import wheel as wheel_module
 from contactstudy.solids.wheel import WheelRecipe, elastic_wheel

@@ -9,7 +9,7 @@ from contactstudy.contact.patches import press_wheel
 from contactstudy.contact.pose import Pose
 from contactstudy.contact.wheelset import SIDES, Wheelset
 from contactstudy.exceptions import InputError
-from contactstudy.profiles.curve import rail_curve, wheel_curve
+from contactstudy.profiles.named import rail_curve, wheel_curve
 from contactstudy.verification import manchester as m
 
 

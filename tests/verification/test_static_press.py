@@ -20,7 +20,8 @@ from contactstudy.contact.press import (
     tangent_stiffness,
 )
 from contactstudy.profiles import rail_profile, wheel_profile
-from contactstudy.solids.halfspace import graded_lines, half_space_patch
+from contactstudy.solids.graded import graded_lines
+from contactstudy.solids.halfspace import half_space_patch
 
 LOADS = np.array([50e3, 60e3, 80e3, 100e3])
 MARGIN = 2  # surface lines beyond the contact points, for the spline

@@ -1,0 +1,87 @@
+"""Curves of rails and wheels by name: those that are drawn, and files of worn ones."""
+
+from functools import lru_cache
+from pathlib import Path
+from typing import Literal
+
+from contactstudy.profiles.curve import ProfileCurve, joined
+from contactstudy.profiles.geometry import Arc
+from contactstudy.profiles.pieces import ArcPiece, LinePiece, Piece
+from contactstudy.profiles.rail import running_pieces
+from contactstudy.profiles.wheel import wheel_profile
+from contactstudy.profiles.worn import worn_curve
+
+
+def rail_curve(name: str = "60E1") -> ProfileCurve:
+    """Running surface of a rail with both side faces, in the rail's own axes.
+
+    s = 0 at the crown, s grows with y; normals point up and out.
+
+    Parameters
+    ----------
+    name : str
+        ``"60E1"``, ``"UIC60-Manchester"``, the rail of the Manchester contact benchmark, or the
+        name of a CSV file with a worn profile (`contactstudy.profiles.worn`).
+
+    Raises
+    ------
+    InputError
+        If there is no such profile, or the file is faulty.
+    """
+    return _worn(name, "rail") if _is_file(name) else _drawn_rail(name)
+
+
+def wheel_curve(name: str) -> ProfileCurve:
+    """Profile of a wheel: y from the tape circle to the field side, z up, normals pointing down.
+
+    s = 0 and z = 0 at the tape circle's lowest point; s grows with y.
+
+    Parameters
+    ----------
+    name : str
+        ``"cylinder"``, ``"cone"`` (1:20), ``"S1002"``, or the name of a CSV file with a worn
+        profile (`contactstudy.profiles.worn`).
+
+    Raises
+    ------
+    InputError
+        If there is no such profile, or the file is faulty.
+    """
+    return _worn(name, "wheel") if _is_file(name) else _drawn_wheel(name)
+
+
+@lru_cache(maxsize=16)
+def _drawn_rail(name: str) -> ProfileCurve:
+    right: list[Piece] = []
+    left: list[Piece] = []
+    for p in running_pieces(name):
+        ends = p.start, p.end
+        mirrored = (-p.end[0], p.end[1]), (-p.start[0], p.start[1])
+        if isinstance(p, Arc):
+            right.append(ArcPiece(p.centre, *ends))
+            left.insert(0, ArcPiece((-p.centre[0], p.centre[1]), *mirrored))
+        else:
+            right.append(LinePiece(*ends))
+            left.insert(0, LinePiece(*mirrored))
+    return ProfileCurve(name, (*left, *right), -sum(p.length for p in left), upper=True)
+
+
+@lru_cache(maxsize=16)
+def _drawn_wheel(name: str) -> ProfileCurve:
+    profile = wheel_profile(name)
+    return joined(profile.name, profile.pieces, 0.0, upper=False)
+
+
+def _is_file(name: str) -> bool:
+    return Path(name).suffix.lower() == ".csv"
+
+
+def _worn(name: str, body: Literal["rail", "wheel"]) -> ProfileCurve:
+    path = Path(name)
+    # a file that has changed is read again
+    return _read(path, body, path.stat().st_mtime_ns if path.is_file() else 0)
+
+
+@lru_cache(maxsize=16)
+def _read(path: Path, body: Literal["rail", "wheel"], changed: int) -> ProfileCurve:
+    return worn_curve(path, body)
