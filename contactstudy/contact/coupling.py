@@ -185,7 +185,7 @@ class SurfaceCoupling:
         self.last = PatchState(forces, surface_load, self._gap)
         record: dict[str, Array | float] = {
             "contact_force": np.array([total]),
-            "contact_area": points.contact_area(active),
+            "contact_area": points.contact_area(self._gap, active),
             "peak_pressure": float((self._tread @ forces / self._tread_area).max()),
             "penetration": float(self._overlap.max()),
             **points.semi_axes(forces),

@@ -49,6 +49,8 @@ class PressCurve:
         Largest overlap of the bodies left by the enforcement, m.
     solutions : tuple of PressedForces
         Forces at the contact points for every load.
+    gaps : tuple of ndarray (n,)
+        Gaps of the deformed bodies there in m, minus the overlap in contact.
     """
 
     force: Array
@@ -56,6 +58,7 @@ class PressCurve:
     stiffness: Array
     penetration: Array
     solutions: tuple[PressedForces, ...]
+    gaps: tuple[Array, ...]
 
     @property
     def exponent(self) -> float:
@@ -142,7 +145,7 @@ def press_curve(
     compliance, law = penalty_compliance(points, penalty), enforcement(tolerance)
     M = flexibility + np.diag(compliance)
     normal = points.normal_z
-    approach, stiffness, penetration, solutions = [], [], [], []
+    approach, stiffness, penetration, solutions, gaps = [], [], [], [], []
     last: PressedForces | None = None
     for load in np.asarray(loads, dtype=float):
         last, overlap = law.press(
@@ -166,12 +169,14 @@ def press_curve(
         stiffness.append(1.0 / softness)
         penetration.append(float(overlap.max()))
         solutions.append(last)
+        gaps.append(points.gap + flexibility @ last.forces - last.approach * normal)
     return PressCurve(
         np.asarray(loads, dtype=float),
         np.array(approach),
         np.array(stiffness),
         np.array(penetration),
         tuple(solutions),
+        tuple(gaps),
     )
 
 

@@ -27,7 +27,7 @@ class Status:
     x, y : (n,), (m,) array
         Grid lines relative to the wheel, mm.
     status : (n, m) array
-        Part of the node's area in contact.
+        Part of the node's area whose points are in contact.
     gap : (n, m) array
         µm; negative: penetration.
     """
@@ -109,8 +109,9 @@ def _caption(name: str, run: xr.Dataset, patch: Patch, status: Status) -> str:
     deepest = max(-float(status.gap.min()), 0.0)
     return (
         f"Contact of the run {label(name)} at X = {exact(patch.position)} m: status of the tread "
-        "nodes by the part of their area in contact (left), and the gap around the patch (right, "
-        f"more than half in contact shaded). The area in contact is "
-        f"{number(float(area @ nodal) * 1e6)} mm²; the largest penetration at a node is "
+        "nodes by the part of their area whose points are in contact (left), and the gap around "
+        "the patch (right, more than half in contact shaded). The points in contact stand for "
+        f"{number(float(area @ nodal) * 1e6)} mm², less than the patch where single points within "
+        "it are open; the largest penetration at a node is "
         f"{number(deepest, 2)} µm."
     )

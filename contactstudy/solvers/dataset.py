@@ -15,7 +15,7 @@ SIGNALS: dict[str, tuple[str, str]] = {
     "rail_lateral": ("m", "lateral displacement of the rail's section under the wheel"),
     "rail_roll": ("rad", "roll of the rail's section under the wheel"),
     "irregularity": ("m", "irregularity under the wheel, faded in, up"),
-    "contact_area": ("m^2", "contact area"),
+    "contact_area": ("m^2", "contact area, from the gap around the patch"),
     "semi_axis_along": ("m", "semi-axis along the rail, from the pressure's second moments"),
     "semi_axis_across": ("m", "semi-axis across the rail, from the pressure's second moments"),
     "peak_pressure": ("Pa", "largest contact pressure"),

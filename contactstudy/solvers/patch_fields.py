@@ -12,7 +12,7 @@ from contactstudy.contact.subsurface import StressMaximum, stress_maxima
 
 Array = NDArray[np.float64]
 
-_STATUS = "contact status: part of the node's area in contact, 0 open, 1 closed"
+_STATUS = "contact status: part of the node's area whose points are in contact, 0 open, 1 closed"
 _INVARIANTS = {
     "von_mises": "largest equivalent stress of von Mises below the patch",
     "maximum_shear": "largest shear stress below the patch",

@@ -95,14 +95,14 @@ def surface_contact(
     Returns
     -------
     xarray.Dataset
-        See `contactstudy.solvers.dataset`; in addition `contact_area`, `peak_pressure` (at the
-        wheel's tread nodes), `penetration` (largest), the static press of this very geometry
-        (`press_force`, `press_approach` from the hub to the rail's centre line,
-        `press_penetration`), of a whole section the lateral motion and roll of the rail under
-        the wheel. With `pressure_at` the fields `pressure`, `gap` and `contact_status` (instant,
-        point) at the tread nodes, the largest stresses below the patch, `von_mises` and
-        `maximum_shear` (instant) with `_depth`, `_x` and `_y`, and the deformed sections of
-        wheel and rail at the first instant; with `frames_at` `frame_pressure` and
+        See `contactstudy.solvers.dataset`; in addition `contact_area` (of the patch, from
+        the gap around it), `peak_pressure` (at the wheel's tread nodes), `penetration` (largest),
+        the static press of this very geometry (`press_force`, `press_approach` from the hub to the
+        rail's centre line, `press_penetration`), of a whole section the lateral motion and
+        roll of the rail under the wheel. With `pressure_at` the fields `pressure`, `gap` and
+        `contact_status` (instant, point) at the tread nodes, the largest stresses below the patch,
+        `von_mises` and `maximum_shear` (instant) with `_depth`, `_x` and `_y`, and the deformed
+        sections of wheel and rail at the first instant; with `frames_at` `frame_pressure` and
         `frame_contact_status` (frame, point).
 
     Raises

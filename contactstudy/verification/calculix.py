@@ -197,13 +197,15 @@ def read_as_facets(mesh: PressMesh, run: CalculixRun) -> FacetPress:
 def _smooth(track: SolidTrack | UnreducedTrack, wheel: WheelFlexibility, x: float) -> FacetPress:
     """The program's own press."""
     points = wheel_points(wheel)
-    solution = geometry_press(track, wheel, np.array([LOAD]), PENALTY, x).solutions[0]
+    curve = geometry_press(track, wheel, np.array([LOAD]), PENALTY, x)
+    solution = curve.solutions[0]
     nx, ny = len(wheel.x) - 1, len(wheel.y) - 1
     force, area = (
         values.reshape(nx, 2, ny, 2).sum(axis=(1, 3)) for values in (solution.forces, points.area)
     )
     # not the curve's approach: that is measured to the rail's centre line
-    return FacetPress(solution.approach, points.contact_area(solution.active), force / area)
+    patch = points.contact_area(curve.gaps[0], solution.active)
+    return FacetPress(solution.approach, patch, force / area)
 
 
 def _pressures(

@@ -35,8 +35,8 @@ def mesh() -> CaseResult:
     )
     method = (
         METHOD
-        + "\n\nThe surfaces are smooth, but the contact area comes in steps of a Gauss point's, "
-        "and where those lie in the patch is another for every mesh. So the force settles to a "
+        + "\n\nThe surfaces are smooth, but Gauss points come into contact one by one, and where "
+        "those lie in the patch is another for every mesh. So the force settles to a "
         "scatter rather than to an order. The nodal pressure is a mean over the elements around "
         "the node: with the half axes a and b that makes its peak h²/12 (1/a² + 1/b²) too low, "
         "2.4 % at 2 mm. Away from the running surface the largest elements have 9 mm; the second "
@@ -74,8 +74,8 @@ def penalty() -> CaseResult:
         f"of {1e9 * refinements.TOLERANCE:g} nm; it stands at the penalty that would leave as "
         "much. The error is of first order in 1/penalty. Gauss points, the default, are four to "
         "a facet, more than there are nodes to follow them: from 1e16 Pa/m on a higher penalty "
-        "only lets go of points (the area falls), the pressure is spread over fewer of them, and "
-        "no order is seen. What that leaves in the force is small."
+        "only lets go of points, the pressure is spread over fewer of them, and no order is seen. "
+        "What that leaves in the force is small."
     )
     order = nodes.orders[1]
     checks = (
