@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 from contactstudy.banded import Factor
 from contactstudy.contact.augmented import enforcement
 from contactstudy.contact.interpolation import SplineLine
+from contactstudy.contact.patch_groups import patch_record
 from contactstudy.contact.points import ContactPoints
 from contactstudy.contact.press import penalty_compliance
 from contactstudy.contact.residual import PatchSource, ResidualFlexibility, patch_splines
@@ -188,7 +189,7 @@ class SurfaceCoupling:
             "contact_area": points.contact_area(self._gap, active),
             "peak_pressure": float((self._tread @ forces / self._tread_area).max()),
             "penetration": float(self._overlap.max()),
-            **points.semi_axes(forces),
+            **patch_record(points, forces),
             # what the reduced track leaves out of the centre line's deflection
             "centre_residual": -float(patch.centre_residual[0] @ surface_load),
         }

@@ -16,8 +16,10 @@ SIGNALS: dict[str, tuple[str, str]] = {
     "rail_roll": ("rad", "roll of the rail's section under the wheel"),
     "irregularity": ("m", "irregularity under the wheel, faded in, up"),
     "contact_area": ("m^2", "contact area, from the gap around the patch"),
-    "semi_axis_along": ("m", "semi-axis along the rail, from the pressure's second moments"),
-    "semi_axis_across": ("m", "semi-axis across the rail, from the pressure's second moments"),
+    "patch_count": ("1", "number of separate patches"),
+    "largest_patch_share": ("1", "share of the normal forces on the patch that carries most"),
+    "semi_axis_along": ("m", "semi-axis of that patch along the rail, from second moments"),
+    "semi_axis_across": ("m", "semi-axis of that patch across the rail, from second moments"),
     "peak_pressure": ("Pa", "largest contact pressure"),
     "penetration": ("m", "largest penetration left by the penalty"),
 }
