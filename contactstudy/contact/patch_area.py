@@ -71,8 +71,8 @@ def _radius(x: np.ndarray, y: np.ndarray, gap: np.ndarray, mirrored: bool) -> fl
         t[i, 0] = t[i, first]
     if limit <= 0.0:
         return -1.0
-    # Gauss points come in pairs: the wider of their two distances
-    spacing = max(np.diff(x).max(), np.diff(y).max())
+    # Gauss points come in pairs: the wider of their two distances; of oblong cells the mean
+    spacing = np.sqrt(np.diff(x).max() * np.diff(y).max())
     return _edge(t, np.diff(x), np.diff(lines), limit, spacing, 2.0 if mirrored else 1.0)
 
 

@@ -44,12 +44,31 @@ class Pressed:
         With the moments of the pressure.
     nodal_pressure : float
         Largest pressure at a node by the L2 projection, Pa.
+    points : ContactPoints
+        With their images in x < 0.
+    gap : ndarray (n,)
+        Of the deformed bodies at them, m.
+    active : ndarray of bool (n,)
+        Points in contact.
     """
 
     load: float
     approach: float
     ellipse: ContactEllipse
     nodal_pressure: float
+    points: ContactPoints
+    gap: Array
+    active: NDArray[np.bool_]
+
+    @property
+    def area(self) -> float:
+        """Of the patch in m^2, as the program reports it."""
+        return self.points.contact_area(self.gap, self.active)
+
+    @property
+    def points_area(self) -> float:
+        """Sum of the areas of the points in contact in m^2."""
+        return float(self.points.area[self.active].sum())
 
 
 @dataclass(frozen=True)
@@ -81,12 +100,31 @@ class Blocks:
 
     def _described(self, solution: PatchForces, load: float, approach: float) -> Pressed:
         points, n = self.points, len(self.points.x)
-        # moments are about the centre, so the images in x < 0 are put back
-        right = 0.5 * solution.forces.reshape(n, -1)
-        whole = replace(points, x=np.concatenate([-points.x[::-1], points.x]))
-        ellipse = contact_ellipse(whole, np.concatenate([right[::-1], right]).ravel())
+        gap = points.gap - approach + self.flexibility @ solution.forces
+        # the images in x < 0 are put back; a line at x = 0 has none
+        first = 1 if points.x[0] == 0.0 else 0
+
+        def whole(values: Array) -> Array:
+            grid = values.reshape(n, -1)
+            return np.concatenate([grid[first:][::-1], grid]).ravel()
+
+        share = np.where(points.x_of_points > 0.0, 0.5, 1.0)
+        both = replace(
+            points,
+            x=np.concatenate([-points.x[first:][::-1], points.x]),
+            area=whole(np.asarray(share * points.area)),
+        )
+        mirrored = whole(np.asarray(share * solution.forces))
         nodal = float(points.nodal_pressure(solution.forces).max())
-        return Pressed(load, approach, ellipse, nodal)
+        return Pressed(
+            load,
+            approach,
+            contact_ellipse(both, mirrored),
+            nodal,
+            both,
+            whole(gap),
+            mirrored > 0.0,
+        )
 
 
 @cache
