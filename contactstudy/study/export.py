@@ -198,9 +198,10 @@ def _start_whole(cell: CellRecipe, wheel: WheelRecipe, placed: Geometry, load: f
             f"{1e3 * s.max():.4g} mm of the wheel's profile",
             wheel,
         )
-    # the flat faces lie inside the smooth bodies by their sagitta h^2/8 k
+    # the flat faces lie inside the smooth bodies by their sagitta h^2/8 k, along the normal
     bend = np.abs(placed.rail.curvature(arc)).max() + np.abs(placed.wheel.curvature(s)).max()
-    return approach + wheel.size**2 / 8 * float(bend + 1 / placed.radius)
+    sagitta = wheel.size**2 / 8 * float(bend + 1 / placed.radius)
+    return approach + sagitta / float(np.cos(placed.touch.angle))
 
 
 def _too_wide(load: float, patch: str, wheel: WheelRecipe) -> InputError:

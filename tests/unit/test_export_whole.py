@@ -169,6 +169,24 @@ def test_command_writes_a_whole_section(tmp_path, capsys):
     assert not out.exists()
 
 
+@pytest.mark.parametrize("shift", ["0 mm", "5.5 mm"])
+def test_first_step_brings_faces_together(tmp_path, shift):
+    """Somewhere the rail's flat faces, seen along Z, stand above the lowered flat tread."""
+    out = tmp_path / "press.inp"
+    arguments = ["export", "s1002_inclined", "--out", str(out), "--rail-length", "0.1 m"]
+    arguments += ["--set", "solid.mesh_size=4 mm", "--set", f"wheelset.lateral_shift={shift}"]
+    assert cli.main(arguments) == 0
+    text = out.read_text()
+    nodes, elements = read(text)
+    start = -1e-3 * float(re.search(r"HUB, 3, 3, (\S+)", text)[1])
+    corners = nodes[faces(text, "RUNNING", elements)]
+    # the rail is prismatic: its faces are a polyline in (y, z)
+    y, z = np.unique(np.round(corners[:, :, 1:].reshape(-1, 2), 10), axis=0).T
+    middle = nodes[faces(text, "TREAD", elements)].mean(axis=1)
+    gap = middle[:, 2] - start - np.interp(middle[:, 1], y, z)
+    assert gap[(middle[:, 1] > y[0]) & (middle[:, 1] < y[-1])].min() < -20e-6
+
+
 def volumes(corners):
     """Volumes (m,) of hexahedra (m, 8, 3): six tetrahedra about the diagonal from 0 to 6."""
     around = [1, 2, 3, 7, 4, 5]
