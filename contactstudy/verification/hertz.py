@@ -20,7 +20,7 @@ RADIUS = 0.3
 """Smaller relative radius, m: the crown of 60E1."""
 PENALTY = 1e16
 """Pa/m, the program's default."""
-BAND, APPROACH_BAND = 0.01, 0.02
+BAND, APPROACH_BAND, AREA_BAND = 0.01, 0.02, 0.03
 
 HERTZ = "Hertz, closed form"
 METHOD = (
@@ -33,7 +33,8 @@ METHOD = (
     "Semi-axes and peak pressure are those of the ellipse of Hertz with the resultant and the "
     "second moments of the computed pressure: integrals, which the points that enter the patch one "
     "by one disturb least. The largest nodal pressure (L2 projection) stands beside it; it is held "
-    "to the same band from 12 elements over the semi-axis at the largest load on."
+    "to the same band from 12 elements over the semi-axis at the largest load on. The area is that "
+    "which a run reports, from the gap around the patch."
 )
 
 
@@ -124,6 +125,7 @@ def _checks(
         ("peak", found.ellipse.peak_pressure * 1e-6, exact.peak_pressure * 1e-6, "MPa", BAND),
         ("peak, nodes", found.nodal_pressure * 1e-6, exact.peak_pressure * 1e-6, "MPa", nodal_band),
         ("approach", found.approach * 1e6, exact.approach * 1e6, "µm", APPROACH_BAND),
+        ("area", found.area * 1e6, exact.area * 1e6, "mm²", AREA_BAND),
     )
     return [
         Check(f"{where}: {quantity}", computed, reference, unit, HERTZ, band)

@@ -23,9 +23,10 @@ of whole sections (2 mm), pressed from a quarter of the static wheel load to all
 reference is the half-space with the same gap (Love's influence, cells of a sixty-fourth of the
 patch), which the Manchester benchmark and Tamaas check. Semi-axes are those of the ellipse of
 Hertz with the second moments of the pressure, on both sides. The patch is long across the rail and
-short along it, a semi-axis there being two elements and a half. The solid's approach holds the
-compliance of wheel and rail at large too: one constant in m/N, fixed at the full load, is taken
-off, and the smaller loads are compared.
+short along it, a semi-axis there being two elements and a half. The area is the one that a run
+reports, from the gap around the patch, against the half-space's cells under pressure. The solid's
+approach holds the compliance of wheel and rail at large too: one constant in m/N, fixed at the full
+load, is taken off, and the smaller loads are compared.
 
 The peak pressure is reported, not judged: it lies on a ridge about one element wide, where the
 rail's radius goes from 300 to 80 mm, which 2 mm elements flatten. A study of positions resolves it.
@@ -49,12 +50,13 @@ def solid_press() -> CaseResult:
     far = (curve.approach[-1] - exact[-1].travel) / LOADS[-1]
     checks: list[Check] = []
     rows: list[tuple[float, ...]] = []
-    for load, approach, solution, reference in zip(
-        LOADS, curve.approach, curve.solutions, exact, strict=True
+    for load, approach, solution, gap, reference in zip(
+        LOADS, curve.approach, curve.solutions, curve.gaps, exact, strict=True
     ):
         (patch,) = reference.patches
         ellipse = contact_ellipse(points, solution.forces)
         peak = float(points.nodal_pressure(solution.forces).max())
+        area = points.contact_area(gap, solution.active)
         own, theirs = approach - far * load, reference.travel
         at = f"at {load / 1e3:.1f} kN"
         checks += [
@@ -69,6 +71,7 @@ def solid_press() -> CaseResult:
                 0.06,
                 scale=1e3 * patch.across,
             ),
+            _check(f"area {at}", area, patch.area, "mm²", 0.05),
             _check(f"peak pressure {at}", peak, patch.peak_pressure, "MPa", None),
         ]
         if load < LOADS[-1]:
@@ -93,7 +96,7 @@ def _check(
     quantity: str, computed: float, reference: float, unit: str, band: float | None
 ) -> Check:
     """A check of SI values, shown in a handy unit."""
-    factor = {"mm": 1e3, "µm": 1e6, "MPa": 1e-6}[unit]
+    factor = {"mm": 1e3, "mm²": 1e6, "µm": 1e6, "MPa": 1e-6}[unit]
     return Check(quantity, factor * computed, factor * reference, unit, _SOURCE, band)
 
 
