@@ -41,9 +41,10 @@ of CalculiX's.
 "Flat faces": {model}, its gap and displacements linear between the nodes as CalculiX has them; \
 what differs is elements, condensation, contact algorithm and integration points. "Smooth \
 profiles": the press as the program runs it, 2 x 2 Gauss points a face, the gap between the smooth \
-profiles, the area from the gap around the patch. The sagitta of the faces, {sagitta:.2g} um, is what the two differ by: with so few \
-faces over a patch it moves single points into contact and single pressures by a tenth, so these \
-are reported beside Hertz and not judged; how they converge is the subject of other cases."""
+profiles, the area from the gap around the patch. The sagitta of the faces, {sagitta:.2g} um, is \
+what the two differ by: with so few faces over a patch it moves single points into contact and \
+single pressures by a tenth, so these are reported beside Hertz and not judged; how they converge \
+is the subject of other cases."""
 
 
 @dataclass(frozen=True)
