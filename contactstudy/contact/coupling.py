@@ -171,7 +171,6 @@ class SurfaceCoupling:
         )
         allowed = self._candidate_points(float(((points.gap - free) / normal).max()))
         forces, surface_load = self._solve(step, free, self._gap < NEAR, allowed)
-        active = self._active
         load = np.zeros(len(u_free))
         # a dof may be named twice, where an end of the track is held
         modal = patch.map.T @ surface_load
@@ -186,10 +185,9 @@ class SurfaceCoupling:
         self.last = PatchState(forces, surface_load, self._gap)
         record: dict[str, Array | float] = {
             "contact_force": np.array([total]),
-            "contact_area": points.contact_area(self._gap, active),
             "peak_pressure": float((self._tread @ forces / self._tread_area).max()),
             "penetration": float(self._overlap.max()),
-            **patch_record(points, forces),
+            **patch_record(points, self._gap, forces),
             # what the reduced track leaves out of the centre line's deflection
             "centre_residual": -float(patch.centre_residual[0] @ surface_load),
         }

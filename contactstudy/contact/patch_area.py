@@ -7,7 +7,8 @@ A(t) the area inside such a line
 
     rho(t) = sqrt(A(t)/pi) = rho_0 + c t
 
-exactly for circles, one or several equal ones, and closely for other shapes. Points at the edge
+exactly for a circle and closely for other shapes; so several patches are taken one by one, each
+on the points nearest to it. Points at the edge
 of a patch carry a force, or open, one by one, and single ones inside open as well; at a spacing
 from it the gap no longer knows of them. The two lines one and two spacings d of the contact
 points from the edge have ``rho(t) - rho(t/2) = d``, and give ``rho_0 = 2 rho(t/2) - rho(t)``.
@@ -16,6 +17,7 @@ points from the edge have ``rho(t) - rho(t/2) = d``, and give ``rho_0 = 2 rho(t/
 import numpy as np
 from numba import njit
 from numpy.typing import NDArray
+from scipy.ndimage import binary_dilation
 
 from contactstudy.exceptions import NumericalError
 
@@ -25,8 +27,10 @@ _SETTLED = 0.01
 """Error of the lines' distance, of the spacing: rho_0 hardly depends on it."""
 
 
-def patch_area(x: Array, y: Array, gap: Array, mirrored: bool) -> float:
-    """Area of all patches on a grid of contact points.
+def patch_area(
+    x: Array, y: Array, gap: Array, mirrored: bool, region: NDArray[np.bool_] | None = None
+) -> float:
+    """Area of a patch on a grid of contact points.
 
     Parameters
     ----------
@@ -36,6 +40,8 @@ def patch_area(x: Array, y: Array, gap: Array, mirrored: bool) -> float:
         Gap of the deformed bodies in m; zero or negative in contact.
     mirrored : bool
         The surfaces continue symmetrically about y = 0, at or before ``y[0]``.
+    region : ndarray of bool (nx, ny), optional
+        Points of this patch's surroundings; all of them when not given.
 
     Returns
     -------
@@ -48,21 +54,26 @@ def patch_area(x: Array, y: Array, gap: Array, mirrored: bool) -> float:
     NumericalError
         If the patch reaches an outer line of the grid.
     """
-    rho = _radius(x, y, gap, mirrored)
+    nearest = np.inf
+    if region is not None:
+        # no line may leave the region
+        rim = region & binary_dilation(~region)
+        nearest = float(gap[rim].min()) if rim.any() else np.inf
+        gap = np.where(region, gap, 2.0 * gap.max())
+    rho = _radius(x, y, gap, mirrored, float(np.cbrt(max(nearest, 0.0) ** 2)))
     if rho < 0.0:
         raise NumericalError("contact area: the patch reaches the edge of the contact points")
     return float(np.pi * rho**2)
 
 
 @njit(cache=True)
-def _radius(x: np.ndarray, y: np.ndarray, gap: np.ndarray, mirrored: bool) -> float:
-    """rho_0, or -1 for a patch that reaches an outer line."""
+def _radius(x: np.ndarray, y: np.ndarray, gap: np.ndarray, mirrored: bool, limit: float) -> float:
+    """rho_0 from lines up to a limit of t, or -1 for a patch that reaches an outer line."""
     nx, ny = gap.shape
     # between the plane of symmetry and the first line nothing changes across
     first = 1 if mirrored and y[0] > 0.0 else 0
     t, lines = np.empty((nx, ny + first)), np.zeros(ny + first)
     lines[first:] = y
-    limit = np.inf
     for i in range(nx):
         for j in range(ny):
             t[i, j + first] = np.cbrt(max(gap[i, j], 0.0) ** 2)

@@ -2,8 +2,9 @@
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import label
+from scipy.ndimage import distance_transform_edt, label
 
+from contactstudy.contact.patch_area import patch_area
 from contactstudy.contact.points import ContactPoints
 
 Array = NDArray[np.float64]
@@ -43,25 +44,64 @@ def patch_forces(points: ContactPoints, forces: Array) -> list[Array]:
     return sorted(found, key=lambda f: -float(f.sum()))
 
 
-def patch_record(points: ContactPoints, forces: Array) -> dict[str, float]:
-    """How many patches there are, and of the one that carries most its share and semi-axes.
+def contact_area(points: ContactPoints, gap: Array, forces: Array) -> float:
+    """Area of all patches in m^2, of both halves of a symmetric model.
+
+    Not the sum of the areas of the points in contact, single ones of which open inside a patch,
+    but from the gap around each patch, see `contactstudy.contact.patch_area`.
 
     Parameters
     ----------
     points : ContactPoints
+    gap : ndarray (n,)
+        Of the deformed bodies in m.
+    forces : ndarray (n,)
+        Normal forces at the points in N.
+
+    Notes
+    -----
+    Within 2 % for two circles whose edges are three facets apart. Near a large patch a small one
+    has no room for the lines around it and may be missed.
+    """
+    return _area(points, gap, patch_forces(points, forces))
+
+
+def _area(points: ContactPoints, gap: Array, patches: list[Array]) -> float:
+    shape = len(points.x), len(points.y)
+    grid = points.x, points.arc, gap.reshape(shape), points.symmetric
+    if len(patches) < 2:
+        return patch_area(*grid) if patches else 0.0
+    number = np.zeros(shape, dtype=int)
+    for k, forces in enumerate(patches):
+        number[forces.reshape(shape) > 0.0] = k + 1
+    near = distance_transform_edt(number == 0, return_distances=False, return_indices=True)
+    number = number[tuple(near)]
+    return sum(patch_area(*grid, number == k + 1) for k in range(len(patches)))
+
+
+def patch_record(points: ContactPoints, gap: Array, forces: Array) -> dict[str, float]:
+    """How many patches there are, their area, and of the one that carries most share and semi-axes.
+
+    Parameters
+    ----------
+    points : ContactPoints
+    gap : ndarray (n,)
+        Of the deformed bodies in m.
     forces : ndarray (n,)
         Normal forces at the points in N.
 
     Returns
     -------
     dict
-        `patch_count`, `largest_patch_share` (of the sum of normal forces, 0 without contact), and
-        `semi_axis_along`, `semi_axis_across` in m, see `ContactPoints.semi_axes`.
+        `patch_count`, `contact_area` in m^2, `largest_patch_share` (of the sum of normal forces,
+        0 without contact), `semi_axis_along`, `semi_axis_across` in m, see
+        `ContactPoints.semi_axes`.
     """
     found = patch_forces(points, forces)
     largest = found[0] if found else forces
     share = float(largest.sum() / forces.sum()) if found else 0.0
     return {
+        "contact_area": _area(points, gap, found),
         "patch_count": float(len(found)),
         "largest_patch_share": share,
         **points.semi_axes(largest),

@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contactstudy.contact.interpolation import Rows, grid_rows
-from contactstudy.contact.patch_area import patch_area
 from contactstudy.contact.quadrature import Quadrature, grid_facets, point_line
 from contactstudy.exceptions import InputError
 from contactstudy.profiles.rail import RailProfile
@@ -97,23 +96,6 @@ class ContactPoints:
         np.add.at(load, self.wheel_rows.index, self.wheel_rows.weight * forces[:, None])
         np.add.at(area, self.wheel_rows.index, self.wheel_rows.weight * self.area[:, None])
         return load / area
-
-    def contact_area(self, gap: Array, active: NDArray[np.bool_]) -> float:
-        """Area of the patches in m^2, of both halves of a symmetric model.
-
-        Not the sum of the areas of the points in contact, single ones of which open inside a
-        patch, but from the gap around it, see `contactstudy.contact.patch_area`.
-
-        Parameters
-        ----------
-        gap : ndarray (nx*ny,)
-            Of the deformed bodies in m.
-        active : ndarray of bool (nx*ny,)
-            Points in contact.
-        """
-        if not active.any():
-            return 0.0
-        return patch_area(self.x, self.arc, gap.reshape(len(self.x), -1), self.symmetric)
 
     def semi_axes(self, forces: Array) -> dict[str, float]:
         """Semi-axes of the ellipse of Hertz with the pressure's second moments, by name, in m.

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contactstudy.contact.interpolation import SplineLine, grid_rows
+from contactstudy.contact.patch_groups import contact_area
 from contactstudy.contact.points import ContactPoints
 from contactstudy.contact.press import (
     ContactEllipse,
@@ -63,7 +64,7 @@ class Pressed:
     @property
     def area(self) -> float:
         """Of the patch in m^2, as the program reports it."""
-        return self.points.contact_area(self.gap, self.active)
+        return contact_area(self.points, self.gap, self.active.astype(float))
 
     @property
     def points_area(self) -> float:

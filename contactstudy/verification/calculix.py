@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contactstudy.contact.hertz import HertzContact, contact_modulus, hertz_contact
+from contactstudy.contact.patch_groups import contact_area
 from contactstudy.export.calculix import calculix_input
 from contactstudy.export.press_mesh import PressMesh, press_mesh
 from contactstudy.export.run_calculix import CalculixRun, run_calculix
@@ -205,7 +206,7 @@ def _smooth(track: SolidTrack | UnreducedTrack, wheel: WheelFlexibility, x: floa
         values.reshape(nx, 2, ny, 2).sum(axis=(1, 3)) for values in (solution.forces, points.area)
     )
     # not the curve's approach: that is measured to the rail's centre line
-    patch = points.contact_area(curve.gaps[0], solution.active)
+    patch = contact_area(points, curve.gaps[0], solution.forces)
     return FacetPress(solution.approach, patch, force / area)
 
 

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from contactstudy.contact.patch_groups import contact_area
 from contactstudy.export.calculix import calculix_input
 from contactstudy.export.press_mesh import press_mesh
 from contactstudy.export.run_calculix import run_calculix
@@ -112,7 +113,7 @@ def _smooth(
     normal = placed.pose.track_of_rail(placed.rail.normal(points.arc))
     sideways = solution.forces.reshape(len(points.x), -1).sum(axis=0) @ normal[:, 0]
     # not the curve's approach: that is measured to the rail's centre line
-    patch = points.contact_area(curve.gaps[0], solution.active)
+    patch = contact_area(points, curve.gaps[0], solution.forces)
     return FacetPress(solution.approach, patch, force / area, float(sideways))
 
 

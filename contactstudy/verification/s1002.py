@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from contactstudy.contact.hertz import contact_modulus
+from contactstudy.contact.patch_groups import contact_area
 from contactstudy.contact.patches import WheelPress, press_wheel
 from contactstudy.contact.pose import PlacedWheel
 from contactstudy.contact.press import contact_ellipse
@@ -56,7 +57,7 @@ def solid_press() -> CaseResult:
         (patch,) = reference.patches
         ellipse = contact_ellipse(points, solution.forces)
         peak = float(points.nodal_pressure(solution.forces).max())
-        area = points.contact_area(gap, solution.active)
+        area = contact_area(points, gap, solution.forces)
         own, theirs = approach - far * load, reference.travel
         at = f"at {load / 1e3:.1f} kN"
         checks += [
