@@ -87,7 +87,13 @@ CASES: tuple[Case, ...] = (
     Case("calculix", "calculix:press_on_default_mesh", slow=True, needs=("program:ccx",)),
     Case(
         "calculix_whole",
-        "calculix_whole:press_of_whole_sections",
+        "calculix_whole:press_with_yaw",
+        slow=True,
+        needs=("program:ccx",),
+    ),
+    Case(
+        "calculix_corner",
+        "calculix_whole:press_on_gauge_corner",
         slow=True,
         needs=("program:ccx",),
     ),
