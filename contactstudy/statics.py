@@ -7,6 +7,9 @@ from contactstudy.banded import Factor, LinearSystem
 from contactstudy.dynamics import ContactStep, Coupling, State
 from contactstudy.exceptions import NumericalError
 
+_LOWERED, _LOWEST = 20e-6, 5e-3
+"""m: by which a wheel that touches nothing is lowered at a time, and in all."""
+
 
 def static_start(
     system: LinearSystem,
@@ -44,7 +47,8 @@ def static_start(
     Raises
     ------
     NumericalError
-        If K is singular for another reason than free wheels, or no equilibrium is found.
+        If K is singular for another reason than free wheels, a wheel finds nothing to stand on, or
+        no equilibrium is found.
     """
     n, kappa = system.n_dofs, auxiliary_stiffness
     springs = np.zeros(n)
@@ -63,6 +67,18 @@ def static_start(
     feet = np.zeros(len(wheel_dofs))
     inverse = -np.eye(len(wheel_dofs)) / kappa  # of d(force)/d(feet), exact for a rigid vehicle
     force, u, contact = spring_forces(feet)
+    # the bodies may touch only after they have come down: an open gap tells nothing of how far
+    for _ in range(round(_LOWEST / _LOWERED)):
+        idle = contact.load[wheel_dofs] <= 0.0
+        if not idle.any():
+            break
+        feet = feet - _LOWERED * idle
+        force, u, contact = spring_forces(feet)
+    else:
+        raise NumericalError(
+            f"no static equilibrium at the start: a wheel {1e3 * _LOWEST:g} mm below its place on "
+            "the undeformed rail still carries nothing"
+        )
     for _ in range(100):
         scale = max(np.abs(external).max(), np.abs(contact.load).max(), 1e-300)
         if np.abs(force).max() <= tolerance * scale:

@@ -310,12 +310,15 @@ class SurfaceCoupling:
         )
 
     def _check_edge(self, step: int, active: NDArray[np.bool_]) -> None:
-        grid = active.reshape(len(self.points.x), -1)
-        side = grid[:, -1].any() or (not self.points.symmetric and grid[:, 0].any())
-        if grid[0].any() or grid[-1].any() or side:
-            raise NumericalError(
-                f"contact patch reaches the edge of the finely meshed zone at step {step}, X = "
-                f"{self.positions[step]:.4f} m: enlarge the wheel's contact zone "
-                f"(now {self.points.wheel_x[0]:.4g} to {self.points.wheel_x[-1]:.4g} m along, "
-                f"{self.points.wheel_y[0]:.4g} to {self.points.wheel_y[-1]:.4g} m across)"
-            )
+        points, grid = self.points, active.reshape(len(self.points.x), -1)
+        across = grid[:, -1].any() or (not points.symmetric and grid[:, 0].any())
+        along = grid[0].any() or grid[-1].any()
+        if not (along or across):
+            return
+        lines, way = (points.wheel_y, "across") if across else (points.wheel_x, "along")
+        key = "contact_half_width" if across else "contact_half_length"
+        raise NumericalError(
+            f"contact patch reaches the edge of the finely meshed zone {way} the rail at step "
+            f"{step}, X = {self.positions[step]:.4f} m: the wheel's zone, {1e3 * lines[0]:.4g} to "
+            f"{1e3 * lines[-1]:.4g} mm, is too small ({key})"
+        )

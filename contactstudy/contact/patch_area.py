@@ -7,11 +7,11 @@ A(t) the area inside such a line
 
     rho(t) = sqrt(A(t)/pi) = rho_0 + c t
 
-exactly for a circle and closely for other shapes; so several patches are taken one by one, each
-on the points nearest to it. Points at the edge
-of a patch carry a force, or open, one by one, and single ones inside open as well; at a spacing
-from it the gap no longer knows of them. The two lines one and two spacings d of the contact
-points from the edge have ``rho(t) - rho(t/2) = d``, and give ``rho_0 = 2 rho(t/2) - rho(t)``.
+exactly for a circle and closely for other shapes; so several patches are taken one by one, each on
+the points nearest to it. Points at the edge of a patch carry a force, or open, one by one, and
+single ones inside open as well; at a spacing from it the gap no longer knows of them. The two
+lines one and two spacings d of the contact points from the edge have ``rho(t) - rho(t/2) = d``,
+and give ``rho_0 = 2 rho(t/2) - rho(t)``.
 """
 
 import numpy as np

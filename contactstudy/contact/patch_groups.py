@@ -8,6 +8,7 @@ from contactstudy.contact.patch_area import patch_area
 from contactstudy.contact.points import ContactPoints
 
 Array = NDArray[np.float64]
+IntArray = NDArray[np.int64]
 
 _TOUCHING = np.ones((3, 3), dtype=int)
 
@@ -16,8 +17,8 @@ def patch_forces(points: ContactPoints, forces: Array) -> list[Array]:
     """Forces split into those of separate patches.
 
     Facets of the wheel's tread that share a side or a corner belong to one patch; so patches are
-    apart where at least one whole facet between them carries nothing. (Points at nodes: where at
-    least one node carries nothing.)
+    apart where at least one whole facet between them carries nothing. A force at a node is carried
+    by all the facets around it.
 
     Parameters
     ----------
@@ -31,17 +32,25 @@ def patch_forces(points: ContactPoints, forces: Array) -> list[Array]:
         Forces of one patch each, zero elsewhere; the largest resultant first. They sum to the
         given ones. Of half a symmetric model, its half only.
     """
-    shape = len(points.x), len(points.y)
-    grid = forces.reshape(shape)
-    # two Gauss points an interval, or one point a node
-    parts = 2 if points.facet.shape[1] == 1 else 1
-    loaded = grid.reshape(shape[0] // parts, parts, shape[1] // parts, parts).any(axis=(1, 3))
+    grid = forces.reshape(len(points.x), len(points.y))
+    gauss = points.facet.shape[1] == 1
+    loaded = np.zeros((len(points.wheel_x) - 1, len(points.wheel_y) - 1), dtype=bool)
+    i, j = np.nonzero(grid)
+    for row, column in ((i // 2, j // 2),) if gauss else _around(i, j, loaded.shape):
+        loaded[row, column] = True
     number, count = label(loaded, structure=_TOUCHING)
     if count < 2:
         return [forces] * count
-    of_point = np.repeat(np.repeat(number, parts, axis=0), parts, axis=1).ravel()
+    of_point = number.ravel()[points.facet[:, 0]]
     found = [np.where(of_point == k, forces, 0.0) for k in range(1, count + 1)]
     return sorted(found, key=lambda f: -float(f.sum()))
+
+
+def _around(i: IntArray, j: IntArray, shape: tuple[int, ...]) -> list[tuple[IntArray, IntArray]]:
+    """Rows and columns of the four facets around nodes; at an edge they are named twice."""
+    rows = [np.clip(i + k, 0, shape[0] - 1) for k in (-1, 0)]
+    columns = [np.clip(j + k, 0, shape[1] - 1) for k in (-1, 0)]
+    return [(row, column) for row in rows for column in columns]
 
 
 def contact_area(points: ContactPoints, gap: Array, forces: Array) -> float:
@@ -74,7 +83,12 @@ def _area(points: ContactPoints, gap: Array, patches: list[Array]) -> float:
     number = np.zeros(shape, dtype=int)
     for k, forces in enumerate(patches):
         number[forces.reshape(shape) > 0.0] = k + 1
-    near = distance_transform_edt(number == 0, return_distances=False, return_indices=True)
+    near = distance_transform_edt(
+        number == 0,
+        sampling=[np.ptp(lines) / (len(lines) - 1) for lines in grid[:2]],
+        return_distances=False,
+        return_indices=True,
+    )
     number = number[tuple(near)]
     return sum(patch_area(*grid, number == k + 1) for k in range(len(patches)))
 

@@ -107,14 +107,37 @@ def whole_wheel_section(
     return WheelSection(nodes, quads, tread, ids[0][0], symmetric=False)
 
 
+def tread_reach(d: WheelDimensions, curve: ProfileCurve, size: float) -> tuple[float, float]:
+    """Arc lengths on a wheel's profile between which the fine part must lie, in m.
+
+    Parameters
+    ----------
+    d : WheelDimensions
+    curve : ProfileCurve
+    size : float
+        Element size in the fine part in m.
+
+    Raises
+    ------
+    InputError
+        If profile and rim do not fit together.
+    """
+    low, high = _ends(d, curve)
+    return _corner(curve, low, high) + 2 * size, high - 2 * size
+
+
+def _corner(curve: ProfileCurve, low: float, high: float) -> float:
+    """First point where the outward normal leans less than 45 degrees to the inside."""
+    s = np.linspace(low, high, 2000)
+    leaning = np.flatnonzero(curve.normal(s)[:, 0] < -np.sqrt(0.5))
+    return float(s[leaning[-1] + 1]) if len(leaning) else low
+
+
 def _rim(
     d: WheelDimensions, curve: ProfileCurve, fine: Array, size: float, coarse: float, growth: float
 ) -> _Rim:
     low, high = _ends(d, curve)
-    s = np.linspace(low, high, 2000)
-    # first point where the outward normal leans less than 45 degrees to the inside
-    leaning = np.flatnonzero(curve.normal(s)[:, 0] < -np.sqrt(0.5))
-    corner = float(s[leaning[-1] + 1]) if len(leaning) else low
+    corner = _corner(curve, low, high)
     if not corner + 2 * size <= fine[0] < fine[-1] <= high - 2 * size:
         raise InputError(
             f"wheel contact zone from s = {fine[0]:.4g} to {fine[-1]:.4g} m: must lie on profile "

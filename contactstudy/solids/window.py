@@ -17,7 +17,7 @@ from contactstudy.solids.section_rows import SectionRows
 Array = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 MARGIN = 3  # cells on each side of the two loaded ones
-_AT_ONCE = 10  # planes whose loads are solved for together
+_AT_ONCE = 10  # planes, or somewhat more, whose loads are solved for together
 
 
 @dataclass(frozen=True)

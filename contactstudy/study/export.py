@@ -188,14 +188,15 @@ def _start_whole(cell: CellRecipe, wheel: WheelRecipe, placed: Geometry, load: f
     approach = 80e-6 * (load / 70e3) ** (2 / 3)
     s, arc = placed.overlap(0.55 * approach)
     along = float(np.sqrt(2 * placed.radius * 0.55 * approach))
+    along += abs(placed.touch.wheel_x)
     on_rail = np.abs(arc - cell.contact_centre)
     tread = wheel.y
     outside = s.min() < tread[0] or s.max() > tread[-1] or on_rail.max() > cell.contact_half_width
     if outside or along > wheel.contact_half_length:
         raise _too_wide(
             load,
-            f"about {along:.4g} m along from its middle and from {1e3 * s.min():.4g} to "
-            f"{1e3 * s.max():.4g} mm of the wheel's profile",
+            f"about {along:.4g} m along from the wheel's lowest point and from "
+            f"{1e3 * s.min():.4g} to {1e3 * s.max():.4g} mm of the wheel's profile",
             wheel,
         )
     # the flat faces lie inside the smooth bodies by their sagitta h^2/8 k, along the normal

@@ -66,11 +66,6 @@ class Pressed:
         """Of the patch in m^2, as the program reports it."""
         return contact_area(self.points, self.gap, self.active.astype(float))
 
-    @property
-    def points_area(self) -> float:
-        """Sum of the areas of the points in contact in m^2."""
-        return float(self.points.area[self.active].sum())
-
 
 @dataclass(frozen=True)
 class Blocks:

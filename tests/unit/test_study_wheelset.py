@@ -1,6 +1,7 @@
 """The table [wheelset] of a study: profiles and position, whole sections, what is refused."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -63,9 +64,9 @@ def test_shift_moves_the_wheels_of_the_two_sides_apart():
     assert 0 < swing < 0.2e-3
 
 
-@pytest.mark.parametrize("shift", [0, 2, 5, 5.5, 6.5, 8])
+@pytest.mark.parametrize("shift", [-8, 0, 2, 4, 5])
 def test_fine_zones_lie_over_each_other(shift):
-    """From the tread's middle over tread and flange root at once (5 mm) to the flange."""
+    """From the tread's outer end to tread and flange root at once (5 mm)."""
     study = loaded(f"wheelset.lateral_shift={shift} mm")
     zone, placed = contact_zone(study), geometry(study)
     half = study.solid.contact_half_width
@@ -144,13 +145,28 @@ def test_a_wheelset_too_narrow_for_its_track_names_the_keys():
 
 
 def test_the_zone_follows_the_rail_as_it_gives_way_sideways():
-    """At 5.5 mm the drawn bodies touch at the gauge corner alone; pushed aside by a fraction of a
-    millimetre the rail meets the tread as well, and both places lie in the zone."""
+    """The drawn bodies touch at the gauge corner alone; pushed aside by a fraction of a millimetre
+    the rail meets the tread as well, and both places lie in the zone."""
     study = loaded("wheelset.lateral_shift=5.5 mm")
     zone, placed = contact_zone(study), geometry(study)
     half = study.solid.contact_half_width
-    given = placed.moved(-0.6e-3).touch
-    for touch in (placed.touch, given):
+    corner, tread = (placed.moved((to - 5.5) * 1e-3).touch for to in (5.3, 4.9))
+    for touch in (corner, tread):
         assert abs(touch.wheel_s - zone.wheel) < half
         assert zone.rail[0] < touch.arc < zone.rail[1]
-    assert given.arc - placed.touch.arc > 0.01
+    assert tread.arc - corner.arc > 0.01
+
+
+@pytest.mark.parametrize("shift", [6, 6.5, 8, 12])
+def test_steep_contact_that_pushes_the_rail_far_aside_is_refused(shift):
+    study = loaded(f"wheelset.lateral_shift={shift} mm")
+    with pytest.raises(InputError, match=r"lateral_shift = .* allowed is 1 mm"):
+        contact_zone(study)
+
+
+def test_contact_ahead_of_the_fine_zone_names_the_key():
+    """With yaw the gauge corner touches ahead of the wheel's lowest point."""
+    study = loaded("wheelset.lateral_shift=5.5 mm", "wheelset.yaw=25 mrad")
+    short = replace(study, solid=study.solid.model_copy(update={"contact_half_length": 1e-3}))
+    with pytest.raises(InputError, match=r"solid.contact_half_length = 1 mm must be larger"):
+        contact_zone(short)

@@ -1,0 +1,45 @@
+"""Static start of a wheel that first has to come down to what carries it."""
+
+import numpy as np
+import pytest
+import scipy.sparse as sp
+
+from contactstudy.banded import LinearSystem
+from contactstudy.dynamics import ContactStep
+from contactstudy.exceptions import NumericalError
+from contactstudy.statics import static_start
+
+STIFFNESS, LOAD = 1e9, 70e3
+
+
+class Ground:
+    """A spring under the wheel, an open gap below it."""
+
+    def __init__(self, gap):
+        self.gap = gap
+
+    def attach(self, factor, scale):
+        self.compliance = float(scale * factor.solve(np.ones((1, 1)))[0, 0])
+
+    def __call__(self, step, u_free):
+        # k (gap + u_free + W f) = -f
+        force = max(0.0, -(self.gap + u_free[0]) / (1 / STIFFNESS + self.compliance))
+        load = np.array([force])
+        return ContactStep(load, self.compliance * load, {"contact_force": load})
+
+
+def free_wheel():
+    nothing = sp.csr_array((1, 1))
+    return LinearSystem(sp.csr_array([[1200.0]]), nothing, nothing)
+
+
+@pytest.mark.parametrize("gap", [0.0, 0.05e-3, 0.7e-3, 4e-3])
+def test_the_wheel_stands_on_the_ground_however_far_below(gap):
+    state = static_start(free_wheel(), Ground(gap), np.array([-LOAD]), np.array([0]))
+    assert state.contact.record["contact_force"][0] == pytest.approx(LOAD, rel=1e-9)
+    assert state.u[0] == pytest.approx(-gap - LOAD / STIFFNESS, rel=1e-9)
+
+
+def test_a_wheel_over_nothing_is_an_error_not_a_fall():
+    with pytest.raises(NumericalError, match="5 mm below its place .* still carries nothing"):
+        static_start(free_wheel(), Ground(1.0), np.array([-LOAD]), np.array([0]))
