@@ -8,7 +8,6 @@ from contactstudy.contact.patch_area import patch_area
 from contactstudy.contact.points import ContactPoints
 
 Array = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 _TOUCHING = np.ones((3, 3), dtype=int)
 
@@ -32,25 +31,24 @@ def patch_forces(points: ContactPoints, forces: Array) -> list[Array]:
         Forces of one patch each, zero elsewhere; the largest resultant first. They sum to the
         given ones. Of half a symmetric model, its half only.
     """
-    grid = forces.reshape(len(points.x), len(points.y))
-    gauss = points.facet.shape[1] == 1
-    loaded = np.zeros((len(points.wheel_x) - 1, len(points.wheel_y) - 1), dtype=bool)
-    i, j = np.nonzero(grid)
-    for row, column in ((i // 2, j // 2),) if gauss else _around(i, j, loaded.shape):
-        loaded[row, column] = True
+    pressing = forces.reshape(len(points.x), len(points.y)) > 0.0
+    # two Gauss points an interval, or one point a node
+    parts = 2 if points.facet.shape[1] == 1 else 1
+    if parts == 2:
+        nx, ny = (n // 2 for n in pressing.shape)
+        loaded = pressing.reshape(nx, 2, ny, 2).any(axis=(1, 3))
+    else:
+        loaded = pressing[:-1, :-1] | pressing[1:, :-1] | pressing[:-1, 1:] | pressing[1:, 1:]
     number, count = label(loaded, structure=_TOUCHING)
     if count < 2:
         return [forces] * count
-    of_point = number.ravel()[points.facet[:, 0]]
+    # a pressing node has the number of any facet around it, here of one before or behind it
+    of_point = np.repeat(np.repeat(number, parts, axis=0), parts, axis=1)
+    if parts == 1:
+        of_point = np.pad(number, ((0, 1), (0, 1)), mode="edge")
+    of_point = of_point.ravel()
     found = [np.where(of_point == k, forces, 0.0) for k in range(1, count + 1)]
     return sorted(found, key=lambda f: -float(f.sum()))
-
-
-def _around(i: IntArray, j: IntArray, shape: tuple[int, ...]) -> list[tuple[IntArray, IntArray]]:
-    """Rows and columns of the four facets around nodes; at an edge they are named twice."""
-    rows = [np.clip(i + k, 0, shape[0] - 1) for k in (-1, 0)]
-    columns = [np.clip(j + k, 0, shape[1] - 1) for k in (-1, 0)]
-    return [(row, column) for row in rows for column in columns]
 
 
 def contact_area(points: ContactPoints, gap: Array, forces: Array) -> float:

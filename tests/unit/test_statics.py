@@ -41,5 +41,5 @@ def test_the_wheel_stands_on_the_ground_however_far_below(gap):
 
 
 def test_a_wheel_over_nothing_is_an_error_not_a_fall():
-    with pytest.raises(NumericalError, match="5 mm below its place .* still carries nothing"):
+    with pytest.raises(NumericalError, match=r"5 mm below its place .* still carries nothing"):
         static_start(free_wheel(), Ground(1.0), np.array([-LOAD]), np.array([0]))
