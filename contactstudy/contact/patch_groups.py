@@ -10,18 +10,22 @@ from contactstudy.contact.points import ContactPoints
 Array = NDArray[np.float64]
 
 _TOUCHING = np.ones((3, 3), dtype=int)
+_OPEN = 0.3e-6  # m
 
 
-def patch_forces(points: ContactPoints, forces: Array) -> list[Array]:
+def patch_forces(points: ContactPoints, gap: Array, forces: Array) -> list[Array]:
     """Forces split into those of separate patches.
 
     Facets of the wheel's tread that share a side or a corner belong to one patch; so patches are
-    apart where at least one whole facet between them carries nothing. A force at a node is carried
-    by all the facets around it.
+    apart where at least one whole facet between them carries nothing and is open by 0.3 um or
+    more: with a stiff penalty whole facets inside a patch open by less. A force at a node is
+    carried by all the facets around it.
 
     Parameters
     ----------
     points : ContactPoints
+    gap : ndarray (n,)
+        Of the deformed bodies in m.
     forces : ndarray (n,)
         Normal forces at the points in N.
 
@@ -31,7 +35,7 @@ def patch_forces(points: ContactPoints, forces: Array) -> list[Array]:
         Forces of one patch each, zero elsewhere; the largest resultant first. They sum to the
         given ones. Of half a symmetric model, its half only.
     """
-    pressing = forces.reshape(len(points.x), len(points.y)) > 0.0
+    pressing = ((forces > 0.0) | (gap < _OPEN)).reshape(len(points.x), len(points.y))
     # two Gauss points an interval, or one point a node
     parts = 2 if points.facet.shape[1] == 1 else 1
     if parts == 2:
@@ -40,15 +44,15 @@ def patch_forces(points: ContactPoints, forces: Array) -> list[Array]:
     else:
         loaded = pressing[:-1, :-1] | pressing[1:, :-1] | pressing[:-1, 1:] | pressing[1:, 1:]
     number, count = label(loaded, structure=_TOUCHING)
-    if count < 2:
-        return [forces] * count
+    if count < 2 or not forces.any():
+        return [forces] if forces.any() else []
     # a pressing node has the number of any facet around it, here of one before or behind it
     of_point = np.repeat(np.repeat(number, parts, axis=0), parts, axis=1)
     if parts == 1:
         of_point = np.pad(number, ((0, 1), (0, 1)), mode="edge")
     of_point = of_point.ravel()
     found = [np.where(of_point == k, forces, 0.0) for k in range(1, count + 1)]
-    return sorted(found, key=lambda f: -float(f.sum()))
+    return sorted((f for f in found if f.any()), key=lambda f: -float(f.sum()))
 
 
 def contact_area(points: ContactPoints, gap: Array, forces: Array) -> float:
@@ -70,7 +74,7 @@ def contact_area(points: ContactPoints, gap: Array, forces: Array) -> float:
     Within 2 % for two circles whose edges are three facets apart. Near a large patch a small one
     has no room for the lines around it and may be missed.
     """
-    return _area(points, gap, patch_forces(points, forces))
+    return _area(points, gap, patch_forces(points, gap, forces))
 
 
 def _area(points: ContactPoints, gap: Array, patches: list[Array]) -> float:
@@ -109,7 +113,7 @@ def patch_record(points: ContactPoints, gap: Array, forces: Array) -> dict[str, 
         0 without contact), `semi_axis_along`, `semi_axis_across` in m, see
         `ContactPoints.semi_axes`.
     """
-    found = patch_forces(points, forces)
+    found = patch_forces(points, gap, forces)
     largest = found[0] if found else forces
     share = float(largest.sum() / forces.sum()) if found else 0.0
     return {
