@@ -14,10 +14,10 @@ import numpy as np
 import pytest
 from threadpoolctl import threadpool_limits
 
-from contactstudy.contact.hertz import contact_modulus, hertz_contact
 from contactstudy.export.calculix import calculix_input
 from contactstudy.export.press_mesh import press_mesh
 from contactstudy.export.run_calculix import run_calculix
+from contactstudy.halfspace.hertz import contact_modulus, hertz_contact
 from contactstudy.solids.cell import condense
 from contactstudy.solids.recipe import CellRecipe
 from contactstudy.solids.wheel import elastic_wheel

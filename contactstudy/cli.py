@@ -19,7 +19,7 @@ from rich.console import Console
 
 from contactstudy import __version__
 from contactstudy.exceptions import ContactStudyError
-from contactstudy.sweep import ONE_THREAD
+from contactstudy.executor import ONE_THREAD
 
 if TYPE_CHECKING:
     from contactstudy.study.positions import PositionsStudy
@@ -150,7 +150,7 @@ def verify(
     listing
         List the cases and run nothing.
     """
-    from contactstudy.verification.cases import select
+    from contactstudy.verification.registry import select
 
     cases = select(names)
     if listing:

@@ -22,13 +22,12 @@ from dataclasses import dataclass
 from typing import Protocol, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
-from contactstudy.contact.surface import PatchForces, PressedForces, contact_forces, press
+from contactstudy.arrays import Array, BoolArray
+from contactstudy.contact.complementarity import PatchForces, PressedForces, contact_forces, press
 from contactstudy.exceptions import InputError, NumericalError
 
-Array = NDArray[np.float64]
-Mask = NDArray[np.bool_]
+Mask = BoolArray
 Solution = TypeVar("Solution", bound=PatchForces)
 
 

@@ -48,7 +48,7 @@ class HertzSpring:
     Parameters
     ----------
     stiffness : float
-        k_H [N/m^1.5], see `contactstudy.contact.hertz`.
+        k_H [N/m^1.5], see `contactstudy.halfspace.hertz`.
     """
 
     stiffness: float

@@ -12,10 +12,10 @@ and the wheel down for positive r, so its positive r is a dip: r here is minus t
 
 import numpy as np
 
-from contactstudy.banded import Factor
 from contactstudy.contact.laws import ContactLaw, contact_forces
-from contactstudy.dynamics import ContactStep
-from contactstudy.rows import dense_rows, row_products, row_values
+from contactstudy.dynamics.banded import Factor
+from contactstudy.dynamics.rows import dense_rows, row_products, row_values
+from contactstudy.dynamics.stepper import ContactStep
 
 
 class PointCoupling:

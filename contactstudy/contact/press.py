@@ -3,14 +3,12 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contactstudy.arrays import Array
 from contactstudy.contact.augmented import enforcement
-from contactstudy.contact.points import ContactPoints
-from contactstudy.contact.surface import PressedForces
+from contactstudy.contact.complementarity import PressedForces
 from contactstudy.exceptions import InputError
-
-Array = NDArray[np.float64]
+from contactstudy.geometry.points import ContactPoints
 
 
 @dataclass(frozen=True)

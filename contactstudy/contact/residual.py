@@ -16,13 +16,11 @@ from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
-from contactstudy.contact.interpolation import SplineLine
-from contactstudy.contact.points import ContactPoints
+from contactstudy.arrays import Array, IntArray
+from contactstudy.geometry.interpolation import SplineLine
+from contactstudy.geometry.points import ContactPoints
 from contactstudy.track.patch import SurfacePatch
-
-Array = NDArray[np.float64]
 
 PHASES = np.array([-0.375, -0.125, 0.125, 0.375])
 """Shifts of the points in mesh steps."""
@@ -36,12 +34,12 @@ class Blend:
     A: Array
     B: Array
 
-    def block(self, index: NDArray[np.int64]) -> Array:
+    def block(self, index: IntArray) -> Array:
         """Rows and columns of an index."""
         at = np.ix_(index, index)
         return np.asarray((1 - self.t) * self.A[at] + self.t * self.B[at])
 
-    def product(self, index: NDArray[np.int64], x: Array) -> Array:
+    def product(self, index: IntArray, x: Array) -> Array:
         """Product with a vector that has the values x at an index and zeros elsewhere."""
         return np.asarray((1 - self.t) * (x @ self.A[index]) + self.t * (x @ self.B[index]))
 

@@ -1,245 +1,321 @@
-"""Frictionless unilateral contact with a penalty pressure on contact points.
+"""Surface contact as the time stepper sees it: a travelling patch of contact points.
 
-A contact point i has the area A_i and carries the normal force ``lam_i = eps A_i p_i`` where
-``p_i = max(0, -g_i)`` is its penetration and ``eps`` the penalty in Pa/m. The gap follows from
-the free gap and the flexibility of all that the forces push on, ``g = g_free + W lam``. So
+With the wheel's displacements w (its hub's, up, and those of its elastic modes, if it has any),
+which move the point by G w into the wheel, the rail's surface displacement u_n along its normal,
+and the irregularity r, the gap at point i is
 
-    M = W + diag(1/(eps A)),   w = g_free + M lam,   lam >= 0,  w >= 0,  lam w = 0
+    g_i = gap_i + (G w)_i - u_n(X + x_i, y_i) - n_i r(X + x_i)
 
-a linear complementarity problem with a symmetric positive definite matrix: exactly one
-solution, no tension by construction, ``-g = lam/(eps A)`` where lam > 0.
+and its flexibility W = Res + scale P_r H S^-1 H^T P_r^T + P_w F_w P_w^T + scale G S_ww^-1 G^T:
+H is the map from the track's dofs to its surface nodes, P_r and P_w interpolate nodes to points,
+Res is the rail's residual flexibility (`contact.residual`), F_w the wheel's relative to its hub
+(without what its modes have of it). G's first column is the normal's vertical component.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
-from scipy.linalg import lapack
 
-from contactstudy.exceptions import InputError, NumericalError
+from contactstudy.arrays import Array, BoolArray, IntArray
+from contactstudy.contact.augmented import enforcement
+from contactstudy.contact.groups import patch_record
+from contactstudy.contact.press import penalty_compliance
+from contactstudy.contact.residual import PatchSource, ResidualFlexibility, patch_splines
+from contactstudy.dynamics.banded import Factor
+from contactstudy.dynamics.stepper import ContactStep
+from contactstudy.exceptions import NumericalError
+from contactstudy.geometry.interpolation import SplineLine
+from contactstudy.geometry.points import ContactPoints
+from contactstudy.geometry.search import CandidateList
 
-Array = NDArray[np.float64]
-Mask = NDArray[np.bool_]
+NEAR = 0.3e-6
+"""Points whose gap was below this [m] a step before enter the dense problem from the start."""
 
 
 @dataclass(frozen=True)
-class PatchForces:
-    """Solution of a contact problem on points.
+class PatchState:
+    """Contact at the end of the last step, at all points.
 
     Attributes
     ----------
     forces : ndarray (n,)
-        Normal forces in N, never negative.
-    active : ndarray of bool (n,)
-        Points in contact; a good first guess for the next problem.
-    iterations : int
-        Linear solves needed.
+        Normal forces in N.
+    surface_load : ndarray (nodes,)
+        Nodal forces on the rail's surface patch, in N, positive into the rail.
+    gap : ndarray (n,)
+        Gaps in m; minus the penetration where there is a force.
     """
 
     forces: Array
-    active: Mask
-    iterations: int
+    surface_load: Array
+    gap: Array
 
 
-@dataclass(frozen=True)
-class PressedForces(PatchForces):
-    """Solution with a prescribed resultant.
+class SurfaceCoupling:
+    """Pressure on the points of one wheel.
+
+    Parameters
+    ----------
+    track : PatchSource
+        Its dofs are the first ones of the system.
+    points : ContactPoints
+        Of the wheel.
+    wheel_flexibility : ndarray (nodes, nodes)
+        Of the wheel's tread nodes relative to the hub, in m/N; without the share of the modes.
+    wheel_dof : int
+        Dof of the system that is the wheel's (its hub's) displacement.
+    positions : ndarray (n_times,)
+        X of the wheel at every state in m.
+    irregularity : ndarray (n_times, len(points.x))
+        r at X + points.x in m.
+    candidates : CandidateList
+        Facets that can touch.
+    penalty : float
+        In Pa/m.
+    rail_step : float
+        Distance of the rail's surface nodes along X in m.
+    rail_period : int or None
+        Steps after which the rail's residual flexibility repeats; its ripple with the phase of
+        the mesh is then taken out, see `contact.residual`.
+    tolerance : float or None
+        Largest overlap in m that an augmented Lagrangian leaves, which starts from the forces of
+        the last step; None: the penalty alone.
+    mode_dofs : ndarray of int (m,)
+        Dofs of the system that are the wheel's elastic modes.
+    mode_shapes : ndarray (m, nodes)
+        Their displacement of the tread nodes into the wheel, in m per unit of the dof.
 
     Attributes
     ----------
-    approach : float
-        Rigid approach in m that gives the resultant.
-    stiffness : float
-        Tangent dF/d(approach) in N/m at the solution.
+    points, positions
+        As given.
+    wheel_dofs : ndarray of int (1 + m,)
+        The hub's dof and the modes'.
+    half_length : float
+        Of the patches asked of the track in m.
+    last : PatchState
+        Contact at the end of the last step.
     """
 
-    approach: float
-    stiffness: float
+    def __init__(
+        self,
+        track: PatchSource,
+        points: ContactPoints,
+        wheel_flexibility: Array,
+        wheel_dof: int,
+        positions: Array,
+        irregularity: Array,
+        candidates: CandidateList,
+        penalty: float,
+        rail_step: float,
+        rail_period: int | None = None,
+        tolerance: float | None = None,
+        mode_dofs: Sequence[int] = (),
+        mode_shapes: Array | None = None,
+    ) -> None:
+        self._track, self.points, self._candidates = track, points, candidates
+        self.wheel_dof, self.positions, self._irregularity = wheel_dof, positions, irregularity
+        self._compliance = penalty_compliance(points, penalty)
+        self._law = enforcement(tolerance)
+        n = len(points.gap)
+        tread = points.wheel_rows.matrix(len(wheel_flexibility))
+        self._wheel_W = tread @ wheel_flexibility @ tread.T
+        self._tread, self._tread_area = tread.T, tread.T @ points.area
+        self.wheel_dofs = np.array([wheel_dof, *mode_dofs], dtype=np.int64)
+        self._wheel_map = points.normal_z[:, None]
+        if mode_shapes is not None:
+            self._wheel_map = np.column_stack([points.normal_z, tread @ mode_shapes.T])
+        # two nodes beyond the outermost point, for the spline
+        self.half_length = float(np.abs(points.x).max()) + 2 * rail_step
+        self._active = np.zeros(n, dtype=bool)
+        self._gap = points.gap
+        self._overlap = np.zeros(n)
+        self._listed: IntArray | None = None
+        self._allowed = np.zeros(n, dtype=bool)
+        self._patch_step = -1
+        self._rail_step, self._rail_period = rail_step, rail_period
+        self._spline: SplineLine | None = None
+        self.last = PatchState(np.zeros(n), np.zeros(0), points.gap)
 
+    def attach(self, factor: Factor, scale: float) -> None:
+        """Take the factor of the system and the share of the new force in a step."""
+        self._factor, self._scale = factor, scale
+        unit = np.zeros((factor.n, len(self.wheel_dofs)))
+        unit[self.wheel_dofs, np.arange(len(self.wheel_dofs))] = 1.0
+        columns = factor.solve(unit)
+        self._vehicle = np.flatnonzero(columns.any(axis=1))
+        self._vehicle_response = scale * columns[self._vehicle]
+        compliance = columns[self.wheel_dofs]
+        moving = self._wheel_map @ (0.5 * scale * (compliance + compliance.T)) @ self._wheel_map.T
+        # the whole wheel: its inertia and modes, and its flexibility
+        self._body_W = self._wheel_W + moving
+        self._columns: dict[int, Array] = {}
+        self._compliance_key: int | None = None
+        self._patch_step = -1
 
-def _solve(M: Array, index: NDArray[np.intp], rhs: Array) -> Array:
-    """Solve ``M[index, index] x = rhs`` by Cholesky."""
-    _, x, info = lapack.dposv(M[index[:, None], index], rhs, lower=1)
-    if info:
-        raise NumericalError(
-            f"contact: flexibility of the {len(index)} points in contact is not positive "
-            f"definite (pivot {info})"
+    def __call__(self, step: int, u_free: Array) -> ContactStep:
+        """Forces at the end of a step."""
+        points, normal = self.points, self.points.normal_z
+        self._move_to(step)
+        patch = self._patch
+        roughness = np.repeat(self._irregularity[step], len(points.y))
+        free = (
+            points.gap
+            + self._wheel_map @ u_free[self.wheel_dofs]
+            - roughness * normal
+            - self._interpolated(patch.map @ u_free[patch.dofs])
         )
-    return np.asarray(x)
+        allowed = self._candidate_points(float(((points.gap - free) / normal).max()))
+        forces, surface_load = self._solve(step, free, self._gap < NEAR, allowed)
+        load = np.zeros(len(u_free))
+        # a dof may be named twice, where an end of the track is held
+        modal = patch.map.T @ surface_load
+        np.subtract.at(load, patch.dofs, modal)
+        total = float(normal @ forces)
+        on_wheel = forces @ self._wheel_map
+        load[self.wheel_dofs] += on_wheel
+        # scale S^-1 load from the columns at hand, which is cheaper than another solution
+        increment = np.zeros(len(u_free))
+        increment[self._reach] = -self._scale * (modal @ self._response)
+        increment[self._vehicle] += self._vehicle_response @ on_wheel
+        self.last = PatchState(forces, surface_load, self._gap)
+        record: dict[str, Array | float] = {
+            "contact_force": np.array([total]),
+            "peak_pressure": float((self._tread @ forces / self._tread_area).max()),
+            "penetration": float(self._overlap.max()),
+            **patch_record(points, self._gap, forces),
+            # what the reduced track leaves out of the centre line's deflection
+            "centre_residual": -float(patch.centre_residual[0] @ surface_load),
+        }
+        if len(patch.centre_map) == 3:
+            at = patch.centre_dofs
+            motion = patch.centre_map[1:] @ (u_free[at] + increment[at])
+            motion -= patch.centre_residual[1:] @ surface_load
+            record["rail_lateral"], record["rail_roll"] = float(motion[0]), float(motion[1])
+        return ContactStep(load, increment, record)
 
-
-def contact_forces(
-    M: Array,
-    gap: Array,
-    guess: Mask | None = None,
-    *,
-    max_iterations: int = 1000,
-    patience: int = 8,
-) -> PatchForces:
-    """Contact forces for given free gaps.
-
-    Primal-dual active set (semismooth Newton): all points that violate their condition change
-    sides at once. Newton may cycle; so once the number of violations has not come down for
-    `patience` exchanges, the same problem is solved as the convex programme that it is, min
-    ``lam M lam/2 + gap lam`` over ``lam >= 0``, by Lawson and Hanson's method (1974, ch. 23),
-    which never goes up and therefore ends.
-
-    Parameters
-    ----------
-    M : ndarray (n, n)
-        Flexibility plus penalty compliance, ``W + diag(1/(eps A))``, in m/N; symmetric
-        positive definite.
-    gap : ndarray (n,)
-        Gaps without contact forces in m, negative where the bodies overlap.
-    guess : ndarray of bool (n,), optional
-        Points expected in contact; those that overlap when left out.
-    max_iterations : int
-        Bound on the number of linear solves.
-    patience : int
-        Full exchanges without progress that are tolerated.
-
-    Returns
-    -------
-    PatchForces
-        Satisfies the conditions up to rounding.
-
-    Raises
-    ------
-    NumericalError
-        If `M` is not positive definite or the active set does not settle.
-    """
-    active = (gap < 0) if guess is None else np.array(guess, dtype=bool)
-    # a gap is "open" down to rounding of the largest one
-    tolerance = 1e-13 * float(np.abs(gap).max(initial=0.0))
-    best, tries = len(gap) + 1, patience
-    for iteration in range(1, max_iterations + 1):
-        forces, slack = _balance(M, gap, active)
-        wrong = np.where(active, forces < 0, slack < -tolerance)
-        violations = int(np.count_nonzero(wrong))
-        if violations == 0:
-            return PatchForces(forces, active, iteration)
-        tries = patience if violations < best else tries - 1
-        best = min(best, violations)
-        if tries < 0:
-            return _descend(M, gap, tolerance, iteration, max_iterations)
-        active ^= wrong
-    raise _unsettled(gap, active, forces, max_iterations)
-
-
-def _balance(M: Array, gap: Array, active: Mask) -> tuple[Array, Array]:
-    """Forces that close the gaps of the active points, and the gaps then left."""
-    forces, index = np.zeros(len(gap)), np.flatnonzero(active)
-    if not len(index):
-        return forces, gap
-    # M_AA lam_A = -g_A
-    forces[index] = _solve(M, index, -gap[index])
-    return forces, gap + M[:, index] @ forces[index]
-
-
-def _descend(
-    M: Array, gap: Array, tolerance: float, iteration: int, max_iterations: int
-) -> PatchForces:
-    """Lawson and Hanson's active set: points enter one at a time, forces stay admissible."""
-    active = np.zeros(len(gap), dtype=bool)
-    forces, slack = np.zeros(len(gap)), gap
-    while True:
-        worst = int(np.argmin(np.where(active, np.inf, slack)))
-        if active.all() or slack[worst] >= -tolerance:
-            return PatchForces(forces, active, iteration)
-        active[worst] = True
-        while True:
-            iteration += 1
-            if iteration > max_iterations:
-                raise _unsettled(gap, active, forces, max_iterations)
-            target, slack = _balance(M, gap, active)
-            low = active & (target <= 0)
-            if not low.any():
-                forces = target
-                break
-            # go towards the target until the first force vanishes; that point leaves
-            share = forces[low] / (forces[low] - target[low])
-            forces = forces + share.min() * (target - forces)
-            leaving = np.flatnonzero(low)[share <= share.min()]
-            forces[leaving], active[leaving] = 0.0, False
-
-
-def _unsettled(gap: Array, active: Mask, forces: Array, limit: int) -> NumericalError:
-    return NumericalError(
-        f"contact: active set not settled after {limit} linear solves: {len(gap)} points, "
-        f"{int(active.sum())} active, least gap {gap.min():.3e} m, sum of forces "
-        f"{forces.sum():.6g} N"
-    )
-
-
-def press(
-    M: Array,
-    gap: Array,
-    normal: Array,
-    resultant: float,
-    guess: Mask | None = None,
-    approach: float | None = None,
-    *,
-    max_iterations: int = 60,
-) -> PressedForces:
-    """Contact forces and rigid approach for a prescribed resultant.
-
-    The gap without forces is ``gap - approach * normal`` and the resultant is
-    ``F = sum(normal * forces)``, an increasing, piecewise linear function of the approach with
-    the slope ``normal_A^T M_AA^-1 normal_A``. Newton's iteration, held within the bracket found
-    so far, ends on it exactly.
-
-    Parameters
-    ----------
-    M, gap : ndarray (n, n), (n,)
-        As in `contact_forces`, at approach zero.
-    normal : ndarray (n,)
-        Component of the contact normal along the approach, positive.
-    resultant : float
-        F in N, positive.
-    guess : ndarray of bool (n,), optional
-        Points expected in contact.
-    approach : float, optional
-        Start of the iteration in m.
-
-    Returns
-    -------
-    PressedForces
-        With the resultant met to 1e-12 relative.
-
-    Raises
-    ------
-    InputError
-        If the resultant is not positive.
-    NumericalError
-        If an iteration does not converge.
-    """
-    if not resultant > 0:
-        raise InputError(f"contact resultant {resultant} N: must be positive")
-    first_touch = float(np.min(gap / normal))
-    if approach is None or approach <= first_touch:
-        # one point alone would have to give way this much: an upper bound of the approach
-        nearest = int(np.argmin(gap / normal))
-        approach = first_touch + resultant * float(M[nearest, nearest]) / normal[nearest] ** 2
-    active, total, force = guess, 0, 0.0
-    low, high = first_touch, np.inf
-    for _ in range(max_iterations):
-        solution = contact_forces(M, gap - approach * normal, active)
-        active, total = solution.active, total + solution.iterations
-        force = float(normal @ solution.forces)
-        index = np.flatnonzero(active)
-        stiffness = float(normal[index] @ _solve(M, index, normal[index])) if len(index) else 0.0
-        if abs(force - resultant) <= 1e-12 * resultant:
-            return PressedForces(solution.forces, active, total, approach, stiffness)
-        if force < resultant:
-            low = approach
-        else:
-            high = approach
-        approach = approach + (resultant - force) / stiffness if stiffness > 0 else np.inf
-        if not low < approach < high:
-            approach = (
-                0.5 * (low + high) if high < np.inf else first_touch + 2 * (low - first_touch)
+    def _move_to(self, step: int) -> None:
+        """Patch and interpolation at a step."""
+        if step == self._patch_step:
+            return
+        X = float(self.positions[step])
+        patch = self._track.patch(X, self.half_length)
+        if self._spline is None:
+            self._spline, self._across = patch_splines(patch, self.points)
+            self._residual = ResidualFlexibility(
+                self._spline,
+                self._across,
+                self.points.x,
+                self._rail_step,
+                self._rail_period,
             )
-    raise NumericalError(
-        f"contact: no approach found for the resultant {resultant:.6g} N "
-        f"(last approach {approach:.6e} m gave {force:.6g} N)"
-    )
+        self._along = self._spline(X - patch.x[0] + self.points.x)
+        if patch.key != self._compliance_key:
+            self._dof_compliance = self._compliance_of(patch.dofs)
+            self._compliance_key = patch.key
+        self._patch, self._patch_step = patch, step
+        self._residual_W = self._residual(X, patch)
+
+    def _interpolated(self, nodal: Array) -> Array:
+        """Values at the points from values at the rail's surface nodes."""
+        grid = nodal.reshape(self._along.shape[1], -1)
+        return (self._along @ grid @ self._across.T).ravel()
+
+    def _compliance_of(self, dofs: IntArray) -> Array:
+        """S^-1 on the patch's dofs; columns are kept while the wheel passes them."""
+        wanted = sorted(set(dofs.tolist()))
+        missing = [d for d in wanted if d not in self._columns]
+        unit = np.zeros((self._factor.n, len(missing)))
+        unit[missing, np.arange(len(missing))] = 1.0
+        solved = self._factor.solve(unit)
+        self._columns = {d: self._columns[d] for d in wanted if d in self._columns} | {
+            d: np.ascontiguousarray(solved[:, k]) for k, d in enumerate(missing)
+        }
+        columns = np.stack([self._columns[d] for d in dofs.tolist()])
+        # in one time step a load is felt a metre or so away: the rest is below rounding
+        size = np.abs(columns).max(axis=0)
+        felt = np.flatnonzero(size > 1e-18 * size.max())
+        self._reach = slice(int(felt[0]), int(felt[-1]) + 1)
+        self._response = np.ascontiguousarray(columns[:, self._reach])
+        C = columns[:, dofs]
+        return np.asarray(0.5 * (C + C.T))
+
+    def _candidate_points(self, approach: float) -> BoolArray:
+        listed = self._candidates.quads(approach)
+        if listed is not self._listed:
+            self._allowed = self.points.listed(listed)
+            self._listed = listed
+        return self._allowed
+
+    def _solve(
+        self, step: int, free: Array, chosen: BoolArray, allowed: BoolArray
+    ) -> tuple[Array, Array]:
+        """Forces at all points and nodal forces on the rail's surface.
+
+        The dense problem holds the chosen points only. Its solution is checked at all points;
+        those found overlapping join, so the restriction never changes the result.
+        """
+        n, patch = len(free), self._patch
+        C = self._residual.beyond(self._scale * self._dof_compliance, patch)
+        H = patch.map
+        ny = len(self.points.y)
+        for _ in range(20):
+            index = np.flatnonzero(chosen)
+            forces, active, overlap = np.zeros(n), np.zeros(n, dtype=bool), np.zeros(n)
+            nodal = np.zeros(len(H))
+            if len(index):
+                P = self._along[index // ny, :, None] * self._across[index % ny, None, :]
+                P = P.reshape(len(index), -1)
+                PH = P @ H
+                M = PH @ C @ PH.T
+                M += self._residual_W.block(index)
+                M += self._body_W[index[:, None], index]
+                M.flat[:: len(index) + 1] += self._compliance[index]
+                solution, overlap[index] = self._law.forces(
+                    M,
+                    free[index],
+                    self._compliance[index],
+                    self.last.forces[index],
+                    self._active[index],
+                )
+                forces[index], active[index] = solution.forces, solution.active
+                nodal = P.T @ solution.forces
+            loaded = np.flatnonzero(forces)
+            pressing = forces[loaded]
+            gap = (
+                free
+                + pressing @ self._body_W[loaded]
+                + self._residual_W.product(loaded, pressing)
+                + self._interpolated(H @ (C @ (H.T @ nodal)))
+            )
+            missed = ~chosen & (gap < -1e-12)
+            if not missed.any():
+                self._check_edge(step, active)
+                self._active, self._gap, self._overlap = active, gap, overlap
+                return forces, nodal
+            if np.any(missed & ~allowed):
+                raise NumericalError(
+                    f"contact search missed points in contact at step {step}, X = "
+                    f"{self.positions[step]:.4f} m: gap {gap[missed & ~allowed].min():.3e} m "
+                    "outside the candidate facets"
+                )
+            chosen = chosen | missed
+        raise NumericalError(
+            f"contact: the set of points near contact does not settle at step {step}, X = "
+            f"{self.positions[step]:.4f} m ({len(index)} of {n} points)"
+        )
+
+    def _check_edge(self, step: int, active: BoolArray) -> None:
+        points, grid = self.points, active.reshape(len(self.points.x), -1)
+        across = grid[:, -1].any() or (not points.symmetric and grid[:, 0].any())
+        along = grid[0].any() or grid[-1].any()
+        if not (along or across):
+            return
+        lines, way = (points.wheel_y, "across") if across else (points.wheel_x, "along")
+        key = "contact_half_width" if across else "contact_half_length"
+        raise NumericalError(
+            f"contact patch reaches the edge of the finely meshed zone {way} the rail at step "
+            f"{step}, X = {self.positions[step]:.4f} m: the wheel's zone, {1e3 * lines[0]:.4g} to "
+            f"{1e3 * lines[-1]:.4g} mm, is too small ({key})"
+        )

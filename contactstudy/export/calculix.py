@@ -2,13 +2,9 @@
 
 from collections.abc import Iterator, Sequence
 
-import numpy as np
-from numpy.typing import NDArray
-
+from contactstudy.arrays import IntArray
 from contactstudy.export.press_mesh import PressMesh
 from contactstudy.validation import positive, raise_if
-
-IntArray = NDArray[np.int64]
 
 UNITS = "mm, N, MPa"
 

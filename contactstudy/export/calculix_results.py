@@ -4,12 +4,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contactstudy.arrays import Array, IntArray
 from contactstudy.exceptions import NumericalError
-
-Array = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 _HEADINGS = ("displacements", "contact stress", "contact print energy", "statistics")
 

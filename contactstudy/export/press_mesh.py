@@ -10,18 +10,15 @@ the wheel has them touch.
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contactstudy.arrays import Array, IntArray
 from contactstudy.exceptions import InputError
 from contactstudy.export.bodies import Body, rail_body, wheel_body
+from contactstudy.geometry.placement import Geometry
 from contactstudy.profiles import wheel_curve
 from contactstudy.solids.recipe import CellRecipe
 from contactstudy.solids.wheel_recipe import WheelRecipe
-from contactstudy.solvers.geometry import Geometry
 from contactstudy.validation import raise_if
-
-Array = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 # corners of the six faces of a hexahedron, in the order in which CalculiX and Abaqus count them
 FACES = ((0, 1, 2, 3), (4, 7, 6, 5), (0, 4, 5, 1), (1, 5, 6, 2), (2, 6, 7, 3), (3, 7, 4, 0))

@@ -10,7 +10,8 @@ import xarray as xr
 from matplotlib.animation import PillowWriter
 from matplotlib.figure import Figure
 
-from contactstudy.figures.drawing import FloatArray, exact, label, position, values
+from contactstudy.arrays import Array
+from contactstudy.figures.drawing import exact, label, position, values
 from contactstudy.figures.style import BLACK, VERMILION, drawing, new_figure
 from contactstudy.study.files import writing
 from contactstudy.study.results import StudyResults
@@ -35,10 +36,10 @@ class Frames:
         Of the wheel, m.
     """
 
-    x: FloatArray
-    y: FloatArray
-    pressure: FloatArray
-    position: FloatArray
+    x: Array
+    y: Array
+    pressure: Array
+    position: Array
 
 
 def write_animations(results: StudyResults, out_dir: Path) -> list[Path]:

@@ -6,13 +6,11 @@ from dataclasses import dataclass
 import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
-from contactstudy import errors
+from contactstudy.arrays import Array
+from contactstudy.compare import norms as errors
 from contactstudy.figures.style import LineStyle, run_styles
 from contactstudy.study.results import StudyResults
-
-FloatArray = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -77,12 +75,12 @@ def styles(results: StudyResults) -> dict[str, LineStyle]:
     return run_styles(list(results.runs), results.reference)
 
 
-def position(run: xr.Dataset) -> FloatArray:
+def position(run: xr.Dataset) -> Array:
     """Position (time,) of the leading wheel along the track in m."""
     return _leading(run["position"])
 
 
-def values(run: xr.Dataset, name: str) -> FloatArray:
+def values(run: xr.Dataset, name: str) -> Array:
     """Variable `name` (time,) of the leading wheel in SI units."""
     return _leading(run[name])
 
@@ -107,7 +105,7 @@ def speed(run: xr.Dataset) -> float:
 
 def compared(
     results: StudyResults, name: str, signal: str, start: float = -np.inf
-) -> tuple[FloatArray, FloatArray, FloatArray]:
+) -> tuple[Array, Array, Array]:
     """Return positions (k,) in m, the reference's signal (k,) there, and that of the run `name`.
 
     Taken as the norms take them: at equal positions of the leading wheel, from `start` [m] on.
@@ -122,7 +120,7 @@ def compared(
     )
 
 
-def _leading(data: xr.DataArray) -> FloatArray:
+def _leading(data: xr.DataArray) -> Array:
     if "wheel" in data.dims:
         data = data.isel(wheel=0)
     return np.asarray(data.values, dtype=np.float64)

@@ -5,8 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 import xarray as xr
 
-from contactstudy.figures.drawing import FloatArray, has_signal, position, values
-from contactstudy.passing import passing_amplitude
+from contactstudy.arrays import Array
+from contactstudy.compare.passing import passing_amplitude
+from contactstudy.figures.drawing import has_signal, position, values
 from contactstudy.study.results import StudyResults
 
 ORDERS = 12  # of the support spacing: down to 50 mm for 0.6 m
@@ -26,7 +27,7 @@ class Passing:
         Positions evaluated, m: a whole number of bays.
     """
 
-    amplitudes: FloatArray
+    amplitudes: Array
     static: float
     window: tuple[float, float]
 

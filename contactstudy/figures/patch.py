@@ -10,9 +10,9 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Ellipse
 
+from contactstudy.arrays import Array
 from contactstudy.figures.drawing import (
     Drawing,
-    FloatArray,
     exact,
     label,
     number,
@@ -42,9 +42,9 @@ class Patch:
         Its number among those stored.
     """
 
-    x: FloatArray
-    y: FloatArray
-    pressure: FloatArray
+    x: Array
+    y: Array
+    pressure: Array
     position: float
     force: float
     instant: int = 0
@@ -94,7 +94,7 @@ def patch_of(run: xr.Dataset) -> Patch | None:
     return Patch(x, y, p, float(at[k]), float(force[k]), k)
 
 
-def _of_instant(data: xr.DataArray, k: int) -> FloatArray:
+def _of_instant(data: xr.DataArray, k: int) -> Array:
     if "instant" in data.dims:
         data = data.isel(instant=k)
     return np.asarray(data.values, dtype=float)
@@ -126,7 +126,7 @@ def _map(patch: Patch, hertz: HertzPatch | None) -> Figure:
     return figure
 
 
-def _field(axes: Axes, x: FloatArray, y: FloatArray, p: FloatArray) -> ScalarMappable:
+def _field(axes: Axes, x: Array, y: Array, p: Array) -> ScalarMappable:
     """Cells about the nodes where these form a grid, else interpolated between them."""
     gx, ix = np.unique(np.round(x, 6), return_inverse=True)
     gy, iy = np.unique(np.round(y, 6), return_inverse=True)
@@ -138,9 +138,7 @@ def _field(axes: Axes, x: FloatArray, y: FloatArray, p: FloatArray) -> ScalarMap
     return axes.tricontourf(x, y, p, levels=levels, cmap="cividis_r")
 
 
-def _cuts(
-    axes: Axes, x: FloatArray, y: FloatArray, p: FloatArray, hertz: HertzPatch | None, half: float
-) -> None:
+def _cuts(axes: Axes, x: Array, y: Array, p: Array, hertz: HertzPatch | None, half: float) -> None:
     for u, v, marker, fill, text in (
         (x, y, "o", BLACK, "along" if hertz is None else "along, y = 0"),
         (y, x, "s", "none", "across"),

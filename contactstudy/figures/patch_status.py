@@ -9,7 +9,8 @@ from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch as Swatch
 
-from contactstudy.figures.drawing import Drawing, FloatArray, exact, label, number
+from contactstudy.arrays import Array
+from contactstudy.figures.drawing import Drawing, exact, label, number
 from contactstudy.figures.patch import Patch, patch_of
 from contactstudy.figures.style import BLACK, BLUE, SHADE, SKY, new_figure
 from contactstudy.study.results import StudyResults
@@ -32,10 +33,10 @@ class Status:
         µm; negative: penetration.
     """
 
-    x: FloatArray
-    y: FloatArray
-    status: FloatArray
-    gap: FloatArray
+    x: Array
+    y: Array
+    status: Array
+    gap: Array
 
 
 def drawings(results: StudyResults) -> list[Drawing]:

@@ -4,7 +4,8 @@ import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
-from contactstudy.figures.drawing import Drawing, FloatArray, label, number
+from contactstudy.arrays import Array
+from contactstudy.figures.drawing import Drawing, label, number
 from contactstudy.figures.hertz_ellipse import hertz_patch
 from contactstudy.figures.style import BLACK, VERMILION, new_figure
 from contactstudy.study.results import StudyResults
@@ -25,9 +26,7 @@ def drawings(results: StudyResults) -> list[Drawing]:
     return []
 
 
-def curves(
-    results: StudyResults, run: xr.Dataset
-) -> tuple[FloatArray, FloatArray, FloatArray | None]:
+def curves(results: StudyResults, run: xr.Dataset) -> tuple[Array, Array, Array | None]:
     """Forces (k,) in N, approaches (k,) in m, and Hertz's approaches (k,) or None without radii."""
     force = np.asarray(run["press_force"].values, dtype=float)
     approach = np.asarray(run["press_approach"].values, dtype=float)
@@ -36,12 +35,12 @@ def curves(
     return force, approach, np.array(hertz) if len(hertz) == len(force) else None
 
 
-def exponent(force: FloatArray, approach: FloatArray) -> float:
+def exponent(force: Array, approach: Array) -> float:
     """Slope of lg force over lg approach: 1.5 by Hertz."""
     return float(np.polyfit(np.log(approach), np.log(force), 1)[0])
 
 
-def _draw(force: FloatArray, approach: FloatArray, hertz: FloatArray | None) -> Figure:
+def _draw(force: Array, approach: Array, hertz: Array | None) -> Figure:
     figure = new_figure(2.6, 4.2)
     axes = figure.add_subplot()
     text = "meshed bodies, hub to centre line"
@@ -55,7 +54,7 @@ def _draw(force: FloatArray, approach: FloatArray, hertz: FloatArray | None) -> 
     return figure
 
 
-def _caption(name: str, force: FloatArray, approach: FloatArray, hertz: FloatArray | None) -> str:
+def _caption(name: str, force: Array, approach: Array, hertz: Array | None) -> str:
     text = (
         f"Static press of the wheel on the rail of the run {label(name)}: force over the approach "
         "of the wheel's hub to the rail's centre line, which contains the bodies' own flexibility. "

@@ -8,7 +8,8 @@ from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 
-from contactstudy.figures.drawing import Drawing, FloatArray, exact, label, number, position, values
+from contactstudy.arrays import Array
+from contactstudy.figures.drawing import Drawing, exact, label, number, position, values
 from contactstudy.figures.style import BLACK, GREY, new_figure
 from contactstudy.study.results import StudyResults
 
@@ -28,9 +29,9 @@ class Section:
     displacement : (n, 2) array
     """
 
-    nodes: FloatArray
+    nodes: Array
     quads: np.ndarray
-    displacement: FloatArray
+    displacement: Array
 
 
 def drawings(results: StudyResults) -> list[Drawing]:
@@ -64,7 +65,7 @@ def irregularity_at_instant(run: xr.Dataset) -> float:
     return float(np.interp(at, position(run), values(run, "irregularity")))
 
 
-def contact_place(run: xr.Dataset, rail: Section) -> FloatArray:
+def contact_place(run: xr.Dataset, rail: Section) -> Array:
     """Centre of pressure at that instant on the rail's outline, (y, z) in m; the crown if none."""
     if not {"pressure", "point_y"} <= set(run.variables):
         return np.zeros(2)
@@ -115,7 +116,7 @@ def mean_sink(body: Section) -> float:
     return float(np.average(body.displacement[:, 1][body.quads].mean(axis=1), weights=area))
 
 
-def _draw(rail: Section, wheel: Section, factor: float, at: FloatArray) -> Figure:
+def _draw(rail: Section, wheel: Section, factor: float, at: Array) -> Figure:
     figure = new_figure(4.0, equal_axes=True)
     whole, near = figure.subplots(1, 2, width_ratios=[1.0, 2.0])
     sink = mean_sink(rail)

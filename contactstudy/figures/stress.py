@@ -10,11 +10,12 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 
-from contactstudy.contact.pressure_field import SurfacePressure
-from contactstudy.contact.subsurface import SHALLOWEST, half_space_stress
-from contactstudy.figures.drawing import Drawing, FloatArray, exact, label, number
+from contactstudy.arrays import Array
+from contactstudy.figures.drawing import Drawing, exact, label, number
 from contactstudy.figures.patch import Patch, patch_of
 from contactstudy.figures.style import BLACK, GREY, VERMILION, new_figure
+from contactstudy.halfspace.pressure_field import SurfacePressure
+from contactstudy.halfspace.subsurface import SHALLOWEST, half_space_stress
 from contactstudy.solids.stress import maximum_shear, von_mises
 from contactstudy.solvers.patch_fields import instant_pressure
 from contactstudy.study.results import StudyResults
@@ -117,7 +118,7 @@ def _plane(
     along: bool,
     at: tuple[float, float],
     invariant: object,
-) -> tuple[FloatArray, FloatArray, FloatArray]:
+) -> tuple[Array, Array, Array]:
     """Invariant in MPa on a grid of a vertical plane through `at`: (n,), (m,) in mm, (m, n)."""
     centre = at[0] if along else at[1]
     s = centre + below.radius * np.linspace(-_WIDE, _WIDE, _POINTS)
@@ -132,9 +133,7 @@ def _plane(
     return s * 1e3, z * 1e3, invariant(stress).reshape(S.shape) * 1e-6
 
 
-def _contours(
-    ax: Axes, s: FloatArray, z: FloatArray, field: FloatArray, levels: FloatArray
-) -> ScalarMappable:
+def _contours(ax: Axes, s: Array, z: Array, field: Array, levels: Array) -> ScalarMappable:
     image = ax.contourf(s, z, field, levels=levels, cmap="cividis_r")
     ax.contour(s, z, field, levels=levels[1:], colors=BLACK, linewidths=0.25)
     ax.set_aspect("equal")

@@ -4,12 +4,11 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.signal import welch
 
+from contactstudy.arrays import Array
 from contactstudy.exceptions import InputError
-
-FloatArray = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,8 +32,8 @@ class SpectralEstimate:
         Number of averaged segments.
     """
 
-    wavenumber: FloatArray
-    density: FloatArray
+    wavenumber: Array
+    density: Array
     sides: Literal["one", "two"]
     unit: Literal["rad/m", "1/m"]
     segment_length: float
@@ -106,14 +105,14 @@ class ThirdOctaves:
         Reference value, in the signal's unit.
     """
 
-    nominal: FloatArray
-    centre: FloatArray
-    mean_square: FloatArray
-    level: FloatArray
+    nominal: Array
+    centre: Array
+    mean_square: Array
+    level: Array
     reference: float
 
     @property
-    def wavelength(self) -> FloatArray:
+    def wavelength(self) -> Array:
         """Centres as wavelengths [m] (periods [s])."""
         return 1.0 / self.centre
 
@@ -176,7 +175,7 @@ def third_octave_levels(
 _NOMINAL = np.array([1.0, 1.25, 1.6, 2.0, 2.5, 3.15, 4.0, 5.0, 6.3, 8.0])
 
 
-def nominal_centre(centre: ArrayLike) -> FloatArray:
+def nominal_centre(centre: ArrayLike) -> Array:
     """Nominal value (1, 1.25, 1.6, ... times a power of ten) of exact band centres."""
     k = np.rint(10.0 * np.log10(np.asarray(centre, dtype=float))).astype(int)
     # rounded to 12 digits: 6.3 times 0.1 is 0.63, not 0.6300000000000001
@@ -184,7 +183,7 @@ def nominal_centre(centre: ArrayLike) -> FloatArray:
     return np.array([float(f"{v:.12g}") for v in value.ravel()]).reshape(value.shape)
 
 
-def _welch(signal: FloatArray, dx: float, n: int) -> tuple[FloatArray, FloatArray, int]:
+def _welch(signal: Array, dx: float, n: int) -> tuple[Array, Array, int]:
     """Two-sided density over the frequencies 0 to Nyquist, and the number of segments."""
     frequency, density = welch(
         signal,
@@ -201,7 +200,7 @@ def _welch(signal: FloatArray, dx: float, n: int) -> tuple[FloatArray, FloatArra
     return np.abs(frequency[:half]), density[:half], segments
 
 
-def _checked(values: ArrayLike, dx: float) -> FloatArray:
+def _checked(values: ArrayLike, dx: float) -> Array:
     signal = np.asarray(values, dtype=float)
     if not (np.isfinite(dx) and dx > 0.0):
         raise InputError(f"spectral estimate: spacing is {dx}; allowed: above 0")

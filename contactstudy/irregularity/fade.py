@@ -3,8 +3,9 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from contactstudy.arrays import Array
 from contactstudy.exceptions import InputError
 from contactstudy.irregularity.profile import Profile, check_derivative
 
@@ -36,7 +37,7 @@ class FadedProfile:
         """That of the profile [m]."""
         return self.profile.repeat_length
 
-    def __call__(self, x: ArrayLike, derivative: int = 0) -> NDArray[np.float64]:
+    def __call__(self, x: ArrayLike, derivative: int = 0) -> Array:
         """Value or derivative at positions x of any shape [m, 1, 1/m]."""
         check_derivative(derivative)
         position = np.asarray(x, dtype=float)
@@ -45,7 +46,7 @@ class FadedProfile:
         out[on] = self._on(position[on], derivative)
         return out
 
-    def _on(self, x: NDArray[np.float64], derivative: int) -> NDArray[np.float64]:
+    def _on(self, x: Array, derivative: int) -> Array:
         # s(t) = 10 t^3 - 15 t^4 + 6 t^5 with t = (X - start)/length: s' and s'' vanish at both
         # ends, so that the wheel feels no jump in velocity or acceleration
         t = np.minimum((x - self.start) / self.length, 1.0)

@@ -4,19 +4,20 @@ import math
 
 import numpy as np
 from numba import njit
-from numpy.typing import NDArray
+
+from contactstudy.arrays import Array
 
 _BLOCK = 256  # positions handled side by side: fills the vector units, stays in the first cache
 
 
 @njit(cache=True)
 def equally_spaced_sum(
-    x: NDArray[np.float64],
+    x: Array,
     first: float,
     spacing: float,
-    real: NDArray[np.float64],
-    imag: NDArray[np.float64],
-    out: NDArray[np.float64],
+    real: Array,
+    imag: Array,
+    out: Array,
 ) -> None:
     """Sum of Re[c_k exp(i (first + k spacing) x)], k = 0..n-1, into ``out``.
 
@@ -46,11 +47,11 @@ def equally_spaced_sum(
 
 @njit(cache=True)
 def direct_sum(
-    x: NDArray[np.float64],
-    cycles: NDArray[np.float64],
-    offset: NDArray[np.float64],
-    amplitude: NDArray[np.float64],
-    out: NDArray[np.float64],
+    x: Array,
+    cycles: Array,
+    offset: Array,
+    amplitude: Array,
+    out: Array,
 ) -> None:
     """Sum of amplitude_k cos(2 pi (cycles_k x + offset_k)) into ``out``.
 

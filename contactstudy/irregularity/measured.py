@@ -6,10 +6,11 @@ from pathlib import Path
 from typing import Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.interpolate import BSpline, make_interp_spline
 from scipy.signal import butter, sosfiltfilt
 
+from contactstudy.arrays import Array
 from contactstudy.exceptions import InputError
 from contactstudy.irregularity.profile import check_derivative
 from contactstudy.irregularity.table import read_columns
@@ -38,8 +39,8 @@ class MeasuredProfile:
         Name for messages and legends.
     """
 
-    positions: NDArray[np.float64]
-    levels: NDArray[np.float64]
+    positions: Array
+    levels: Array
     interpolation: Interpolation = "cubic"
     wavelengths: tuple[float, float] | None = None
     name: str = "measured profile"
@@ -58,7 +59,7 @@ class MeasuredProfile:
     def _spline(self) -> BSpline:
         return make_interp_spline(self.positions, self.levels, k=_DEGREE[self.interpolation])
 
-    def __call__(self, x: ArrayLike, derivative: int = 0) -> NDArray[np.float64]:
+    def __call__(self, x: ArrayLike, derivative: int = 0) -> Array:
         """Value or derivative at positions x of any shape [m, 1, 1/m].
 
         Raises
@@ -158,11 +159,11 @@ def _uncovered(name: str, domain: tuple[float, float], start: float, end: float)
 
 def _band_passed(
     file: Path,
-    x: NDArray[np.float64],
-    level: NDArray[np.float64],
+    x: Array,
+    level: Array,
     wavelengths: tuple[float, float],
     interpolation: Interpolation,
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+) -> tuple[Array, Array]:
     step = np.diff(x)
     dx = float(np.median(step))
     if np.abs(step - dx).max() > 1e-6 * dx:

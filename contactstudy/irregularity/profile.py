@@ -6,8 +6,9 @@ from functools import cached_property
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from contactstudy.arrays import Array
 from contactstudy.exceptions import InputError
 from contactstudy.irregularity.kernels import direct_sum, equally_spaced_sum
 
@@ -25,7 +26,7 @@ class Profile(Protocol):
     def repeat_length(self) -> float:
         """Length after which the profile repeats, or nearly so; infinite if it does not [m]."""
 
-    def __call__(self, x: ArrayLike, derivative: int = 0) -> NDArray[np.float64]:
+    def __call__(self, x: ArrayLike, derivative: int = 0) -> Array:
         """Value or derivative at positions of any shape.
 
         Parameters
@@ -60,7 +61,7 @@ class SmoothRail:
         """Infinite [m]: there is nothing to repeat."""
         return np.inf
 
-    def __call__(self, x: ArrayLike, derivative: int = 0) -> NDArray[np.float64]:
+    def __call__(self, x: ArrayLike, derivative: int = 0) -> Array:
         """Zero at every position."""
         check_derivative(derivative)
         return np.zeros(np.shape(x))
@@ -88,9 +89,9 @@ class HarmonicProfile:
         If the three differ in length or are empty.
     """
 
-    amplitudes: NDArray[np.float64]
-    wavenumbers: NDArray[np.float64]
-    phases: NDArray[np.float64]
+    amplitudes: Array
+    wavenumbers: Array
+    phases: Array
 
     def __post_init__(self) -> None:
         for name in ("amplitudes", "wavenumbers", "phases"):
@@ -134,7 +135,7 @@ class HarmonicProfile:
         """Root mean square over an infinite length [m]: sqrt(sum a_k^2/2)."""
         return float(np.sqrt(0.5 * np.sum(self.amplitudes**2)))
 
-    def __call__(self, x: ArrayLike, derivative: int = 0) -> NDArray[np.float64]:
+    def __call__(self, x: ArrayLike, derivative: int = 0) -> Array:
         """Value or derivative at positions x of any shape [m, 1, 1/m]."""
         check_derivative(derivative)
         position = np.asarray(x, dtype=float)

@@ -11,14 +11,15 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.integrate import quad
 
+from contactstudy.arrays import Array
 from contactstudy.exceptions import InputError
 
 Sides = Literal["one", "two"]
 Wavenumber = Literal["rad/m", "1/m"]
-Formula = Callable[[NDArray[np.float64]], NDArray[np.float64]]
+Formula = Callable[[Array], Array]
 
 
 @dataclass(frozen=True)
@@ -83,11 +84,11 @@ class Spectrum:
     parameters: tuple[tuple[str, float], ...] = ()
     breaks: tuple[float, ...] = ()
 
-    def __call__(self, omega: ArrayLike) -> NDArray[np.float64]:
+    def __call__(self, omega: ArrayLike) -> Array:
         """Two-sided density [m^2/(rad/m)] at angular wavenumbers omega > 0 [rad/m]."""
         return self.density(omega, TWO_SIDED)
 
-    def density(self, wavenumber: ArrayLike, convention: Convention) -> NDArray[np.float64]:
+    def density(self, wavenumber: ArrayLike, convention: Convention) -> Array:
         """Density at ``wavenumber``, both in the wanted convention.
 
         Raises

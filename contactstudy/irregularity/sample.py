@@ -4,8 +4,9 @@ from collections.abc import Callable
 from typing import Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from contactstudy.arrays import Array
 from contactstudy.exceptions import InputError
 from contactstudy.irregularity.profile import HarmonicProfile
 
@@ -13,7 +14,7 @@ DIRECTIONS = ("vertical", "transverse")
 
 
 def sample_profile(
-    spectrum: Callable[[ArrayLike], NDArray[np.float64]],
+    spectrum: Callable[[ArrayLike], Array],
     seed: int,
     n_terms: int = 1000,
     band: tuple[float, float] = (0.08, 20.0),
@@ -57,7 +58,7 @@ def sample_profile(
     # (2): omega_k = omega_l + (k - 1/2) d, d = (omega_u - omega_l)/N, a_k = 2 sqrt(G d):
     # with a two-sided G the variance sum a_k^2/2 = 2 sum G d is its integral over both signs
     step = (upper - lower) / n_terms
-    wavenumbers: NDArray[np.float64] = lower + (np.arange(n_terms) + place) * step
+    wavenumbers: Array = lower + (np.arange(n_terms) + place) * step
     amplitudes = np.asarray(2.0 * np.sqrt(spectrum(wavenumbers) * step), dtype=float)
     return HarmonicProfile(amplitudes, wavenumbers, phases)
 

@@ -6,8 +6,8 @@ from collections.abc import Callable
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contactstudy.arrays import Array
 from contactstudy.exceptions import InputError
 from contactstudy.irregularity.psd import TWO_SIDED, Convention, Sides, Spectrum
 
@@ -27,7 +27,7 @@ def paper_spectrum(
     _positive("paper", roughness=roughness, omega_2=omega_2)
     _not_negative("paper", omega_1=omega_1)
 
-    def formula(w: NDArray[np.float64]) -> NDArray[np.float64]:
+    def formula(w: Array) -> Array:
         # G_rr = A_r w2^2 (w^2 + w1^2)/(w^4 (w^2 + w2^2))
         return roughness * omega_2**2 * (w**2 + omega_1**2) / (w**4 * (w**2 + omega_2**2))
 
@@ -70,7 +70,7 @@ def german(
     a = _GERMAN[direction][0 if level == "low" else 1]
     omega_c, omega_r = 0.8246, 0.0206
 
-    def formula(w: NDArray[np.float64]) -> NDArray[np.float64]:
+    def formula(w: Array) -> Array:
         # S = A w_c^2/((w^2 + w_r^2)(w^2 + w_c^2))
         return a * omega_c**2 / ((w**2 + omega_r**2) * (w**2 + omega_c**2))
 
@@ -102,7 +102,7 @@ def fra(track_class: int = 6, sides: Sides = "two") -> Spectrum:
     _one_of("fra", "sides", sides, ("two", "one"))
     a, omega_c = _FRA[track_class - 1], 0.8245
 
-    def formula(w: NDArray[np.float64]) -> NDArray[np.float64]:
+    def formula(w: Array) -> Array:
         # S = 0.25 A_v w_c^2/(w^2 (w^2 + w_c^2)), A_v in cm^2 rad/m
         return 0.25 * a * omega_c**2 / (w**2 * (w**2 + omega_c**2))
 
@@ -125,7 +125,7 @@ def tbt3352() -> Spectrum:
     ends = np.array([row[0] for row in _TBT3352[:-1]])
     a, n = np.array([row[1] for row in _TBT3352]), np.array([row[2] for row in _TBT3352])
 
-    def formula(f: NDArray[np.float64]) -> NDArray[np.float64]:
+    def formula(f: Array) -> Array:
         part = np.searchsorted(ends, f, side="right")
         return a[part] / f ** n[part]
 

@@ -3,15 +3,13 @@
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contactstudy.arrays import Array
 from contactstudy.csv_rows import finite_number, listed, read_rows
 from contactstudy.exceptions import InputError
 
 
-def read_columns(
-    path: Path, columns: tuple[str, str], min_rows: int = 4
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def read_columns(path: Path, columns: tuple[str, str], min_rows: int = 4) -> tuple[Array, Array]:
     """Two columns of numbers, the first of them increasing.
 
     Parameters
@@ -65,9 +63,7 @@ def read_columns(
     return table[:, 0].copy(), table[:, 1].copy()
 
 
-def _disorder(
-    rows: list[tuple[int, list[str]]], positions: NDArray[np.float64], name: str
-) -> list[str]:
+def _disorder(rows: list[tuple[int, list[str]]], positions: Array, name: str) -> list[str]:
     """Lines at which the position does not increase; unreadable cells are passed over."""
     good = np.flatnonzero(np.isfinite(positions))
     found = []

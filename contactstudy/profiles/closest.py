@@ -6,10 +6,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from contactstudy.arrays import Array
 from contactstudy.exceptions import InputError, NumericalError
 from contactstudy.profiles.pieces import Frame
-
-Array = NDArray[np.float64]
 
 # largest spacing of the table of points among which the closest is looked for first [m]
 _SPACING = 0.5e-3

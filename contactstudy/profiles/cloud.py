@@ -13,9 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import BSpline
 
+from contactstudy.arrays import Array
 from contactstudy.exceptions import InputError
-
-Array = NDArray[np.float64]
 
 _DEGREE = 3
 _BIN = 1e-4  # length [m] over which points are taken together where knots are chosen

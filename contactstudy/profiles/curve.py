@@ -5,13 +5,12 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from contactstudy.arrays import Array
 from contactstudy.exceptions import InputError
 from contactstudy.profiles.closest import ClosestPoint
 from contactstudy.profiles.pieces import Frame, Piece
-
-Array = NDArray[np.float64]
 
 _ITERATIONS = 100
 

@@ -5,9 +5,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-Vector = NDArray[np.float64]
+from contactstudy.arrays import Array
+
+Vector = Array
 
 
 @dataclass(frozen=True)

@@ -10,10 +10,10 @@ from functools import cached_property
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import BSpline, CubicHermiteSpline
 
-Array = NDArray[np.float64]
+from contactstudy.arrays import Array
+
 Frame = tuple[Array, Array, Array]
 
 

@@ -6,8 +6,9 @@ from functools import cached_property, lru_cache
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from contactstudy.arrays import Array
 from contactstudy.exceptions import InputError
 from contactstudy.profiles.geometry import Arc, Line, Piece, resolve_path
 from contactstudy.resources import resource
@@ -97,7 +98,7 @@ class RailProfile:
             "foot_bottom": -self.height,
         }
 
-    def half_width(self, z: ArrayLike) -> NDArray[np.float64]:
+    def half_width(self, z: ArrayLike) -> Array:
         """Half width of the outline at height z.
 
         Parameters
@@ -130,19 +131,19 @@ class RailProfile:
             y[which == k] = sloped[k].y_of_z(h[which == k])
         return y
 
-    def running_surface(self, y: ArrayLike) -> NDArray[np.float64]:
+    def running_surface(self, y: ArrayLike) -> Array:
         """Height z of the running surface at y [m]; NaN beyond the lower end of the side face."""
         return self._surface(y, 0)
 
-    def running_slope(self, y: ArrayLike) -> NDArray[np.float64]:
+    def running_slope(self, y: ArrayLike) -> Array:
         """Slope dz/dy of the running surface at y [-]."""
         return self._surface(y, 1)
 
-    def running_curvature(self, y: ArrayLike) -> NDArray[np.float64]:
+    def running_curvature(self, y: ArrayLike) -> Array:
         """Second derivative d2z/dy2 of the running surface at y [1/m]."""
         return self._surface(y, 2)
 
-    def running_arc(self, y: ArrayLike) -> NDArray[np.float64]:
+    def running_arc(self, y: ArrayLike) -> Array:
         """Arc length along the running surface from the crown to y, with the sign of y [m].
 
         NaN beyond the lower end of the side face.
@@ -156,13 +157,13 @@ class RailProfile:
             begin += float(piece.length_to(np.array([piece.end[0]]))[0])
         return arc * np.where(b < 0.0, -1.0, 1.0)
 
-    def half_outline(self, chord_error: float = 1e-7) -> NDArray[np.float64]:
+    def half_outline(self, chord_error: float = 1e-7) -> Array:
         """Right half from the crown to the foot's centre, shape (n, 2), clockwise [m]."""
         rows = [p.points(chord_error)[:-1] for p in self.pieces]
         return np.concatenate([*rows, [self.pieces[-1].end]])
 
     @cached_property
-    def outline(self) -> NDArray[np.float64]:
+    def outline(self) -> Array:
         """Whole outline, shape (n, 2), counter-clockwise from the foot's centre, open [m].
 
         Chords stay within 0.1 um of the arcs.
@@ -179,7 +180,7 @@ class RailProfile:
         """Pieces of the right half of the running surface, from the crown down the side face."""
         return self.pieces[: 1 + self.pieces.index(self._piece("side face"))]
 
-    def _surface(self, y: ArrayLike, derivative: int) -> NDArray[np.float64]:
+    def _surface(self, y: ArrayLike, derivative: int) -> Array:
         b = np.asarray(y, dtype=float)
         side = np.abs(b)
         top = self.running_pieces

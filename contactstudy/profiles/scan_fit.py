@@ -9,15 +9,13 @@ the arc length alone belongs to the curve), on what small motions would make of 
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import BSpline
 
+from contactstudy.arrays import Array, IntArray
 from contactstudy.exceptions import InputError
 from contactstudy.profiles.cloud import CloudFit
 from contactstudy.profiles.curve import ProfileCurve, joined
 from contactstudy.profiles.pieces import ParametricPiece, SplinePath
-
-Array = NDArray[np.float64]
 
 STEEPEST = np.deg2rad(80.0)
 """Angle of the surface with the horizontal up to which it can be touched."""
@@ -74,7 +72,7 @@ class ScanFit:
         return np.asarray((np.asarray(points, dtype=float) - self.origin) @ self.rotation.T)
 
 
-def _within(group: NDArray[np.int64], columns: Array) -> Array:
+def _within(group: IntArray, columns: Array) -> Array:
     """Columns less their means within groups."""
     _, where, count = np.unique(group, return_inverse=True, return_counts=True)
     where = where.ravel()

@@ -1,8 +1,8 @@
 """Smooth rail heads fitted to scanned surfaces: prisms along a direction near X."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contactstudy.arrays import Array
 from contactstudy.exceptions import InputError
 from contactstudy.profiles.cloud import fit_cloud
 from contactstudy.profiles.scan_fit import (
@@ -15,8 +15,6 @@ from contactstudy.profiles.scan_fit import (
     regressed,
     scan_fit,
 )
-
-Array = NDArray[np.float64]
 
 RAIL_DEPTH = 0.03
 """Depth below the top of the rail [m] down to which a scan is used."""

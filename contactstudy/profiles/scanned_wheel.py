@@ -1,9 +1,9 @@
 """Smooth wheel treads fitted to scanned surfaces: of revolution about an axis near Y."""
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import BSpline
 
+from contactstudy.arrays import Array
 from contactstudy.exceptions import InputError
 from contactstudy.profiles.cloud import fit_cloud
 from contactstudy.profiles.scan_fit import (
@@ -16,8 +16,6 @@ from contactstudy.profiles.scan_fit import (
     regressed,
     scan_fit,
 )
-
-Array = NDArray[np.float64]
 
 WHEEL_DEPTH = 0.04
 """Depth below the greatest radius, the flange's tip [m], down to which a scan is used."""

@@ -4,8 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
-from numpy.typing import NDArray
 from scipy.sparse.linalg import splu
+
+from contactstudy.arrays import Array, IntArray
 
 _GAUSS = np.array([-1.0, 1.0]) / np.sqrt(3.0)
 
@@ -31,14 +32,14 @@ class IntegrationMesh:
     """
 
     n_nodes: int
-    quads: NDArray[np.int64]
-    shape: NDArray[np.float64]
-    gradient: NDArray[np.float64]
-    weight: NDArray[np.float64]
-    point: NDArray[np.float64]
+    quads: IntArray
+    shape: Array
+    gradient: Array
+    weight: Array
+    point: Array
 
 
-def integration_mesh(nodes: NDArray[np.float64], quads: NDArray[np.int64]) -> IntegrationMesh:
+def integration_mesh(nodes: Array, quads: IntArray) -> IntegrationMesh:
     """Gauss points, weights and gradients of a mesh of nodes (n, 2) [m] and quads (m, 4)."""
     s, t = (a.ravel()[:, None] for a in np.meshgrid(_GAUSS, _GAUSS, indexing="ij"))
     si, ti = np.array([-1.0, 1.0, 1.0, -1.0]), np.array([-1.0, -1.0, 1.0, 1.0])
@@ -55,10 +56,10 @@ def integration_mesh(nodes: NDArray[np.float64], quads: NDArray[np.int64]) -> In
 
 def shear_coefficient(
     mesh: IntegrationMesh,
-    centroid: NDArray[np.float64],
+    centroid: Array,
     direction: int,
     poisson_ratio: float,
-    antisymmetry_nodes: NDArray[np.int64] | None = None,
+    antisymmetry_nodes: IntArray | None = None,
 ) -> float:
     """Cowper's kappa for a shear force along one principal direction.
 

@@ -7,8 +7,9 @@ from functools import lru_cache
 from typing import Any, Protocol
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from contactstudy.arrays import Array
 from contactstudy.exceptions import InputError
 from contactstudy.profiles.pieces import ArcPiece, LinePiece, ParametricPiece, Piece, PolynomialPath
 from contactstudy.resources import resource
@@ -31,13 +32,13 @@ class WheelProfile(Protocol):
     def name(self) -> str:
         """Name of the profile."""
 
-    def height(self, y: ArrayLike) -> NDArray[np.float64]:
+    def height(self, y: ArrayLike) -> Array:
         """Height of the tread above the lowest point of the tape circle [m]."""
 
-    def slope(self, y: ArrayLike) -> NDArray[np.float64]:
+    def slope(self, y: ArrayLike) -> Array:
         """Derivative of the height [-]."""
 
-    def curvature(self, y: ArrayLike) -> NDArray[np.float64]:
+    def curvature(self, y: ArrayLike) -> Array:
         """Second derivative of the height [1/m]."""
 
 
@@ -64,15 +65,15 @@ class ConicalTread:
     name: str
     conicity: float
 
-    def height(self, y: ArrayLike) -> NDArray[np.float64]:
+    def height(self, y: ArrayLike) -> Array:
         """Height of the tread above the lowest point of the tape circle [m]."""
         return self.conicity * np.asarray(y, dtype=float)
 
-    def slope(self, y: ArrayLike) -> NDArray[np.float64]:
+    def slope(self, y: ArrayLike) -> Array:
         """Derivative of the height [-]."""
         return np.full_like(np.asarray(y, dtype=float), self.conicity)
 
-    def curvature(self, y: ArrayLike) -> NDArray[np.float64]:
+    def curvature(self, y: ArrayLike) -> Array:
         """Second derivative of the height [1/m]."""
         return np.zeros_like(np.asarray(y, dtype=float))
 
@@ -99,7 +100,7 @@ class PolynomialSection:
     end: float
     path: PolynomialPath
 
-    def height(self, y: NDArray[np.float64], derivative: int) -> NDArray[np.float64]:
+    def height(self, y: Array, derivative: int) -> Array:
         """Height, slope or second derivative at y [m, 1, 1/m]."""
         return self.path.height(y, derivative)
 
@@ -131,7 +132,7 @@ class ArcSection:
     radius: float
     lower: bool
 
-    def height(self, y: NDArray[np.float64], derivative: int) -> NDArray[np.float64]:
+    def height(self, y: Array, derivative: int) -> Array:
         """Height, slope or second derivative at y [m, 1, 1/m]."""
         b = y - self.centre[0]
         root = np.sqrt(np.maximum(self.radius**2 - b * b, 0.0))
@@ -169,15 +170,15 @@ class SectionedTread:
     source: str = ""
     reference: tuple[tuple[str, float], ...] = ()
 
-    def height(self, y: ArrayLike) -> NDArray[np.float64]:
+    def height(self, y: ArrayLike) -> Array:
         """Height of the tread above the lowest point of the tape circle [m]."""
         return self._evaluate(y, 0)
 
-    def slope(self, y: ArrayLike) -> NDArray[np.float64]:
+    def slope(self, y: ArrayLike) -> Array:
         """Derivative of the height [-]; infinite where the flange's back begins."""
         return self._evaluate(y, 1)
 
-    def curvature(self, y: ArrayLike) -> NDArray[np.float64]:
+    def curvature(self, y: ArrayLike) -> Array:
         """Second derivative of the height [1/m]."""
         return self._evaluate(y, 2)
 
@@ -186,7 +187,7 @@ class SectionedTread:
         """Pieces from the flange's back to the field side, z up."""
         return tuple(section.piece for section in self.sections)
 
-    def _evaluate(self, y: ArrayLike, derivative: int) -> NDArray[np.float64]:
+    def _evaluate(self, y: ArrayLike, derivative: int) -> Array:
         b = np.asarray(y, dtype=float)
         low, high = self.sections[0].begin, self.sections[-1].end
         if not np.all((b >= low) & (b <= high)):

@@ -10,13 +10,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from contactstudy.arrays import Array
 from contactstudy.exceptions import InputError
 from contactstudy.resources import resource
 from contactstudy.validation import raise_if
-
-Array = NDArray[np.float64]
 
 DEFAULT = "straight_860"
 """The shipped wheel."""

@@ -5,16 +5,15 @@ from pathlib import Path
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import BSpline
 
+from contactstudy.arrays import Array
 from contactstudy.csv_rows import finite_number, listed, read_rows
 from contactstudy.exceptions import InputError
 from contactstudy.profiles.cloud import fit_cloud
 from contactstudy.profiles.curve import ProfileCurve, joined
 from contactstudy.profiles.pieces import ParametricPiece, SplinePath
 
-Array = NDArray[np.float64]
 Body = Literal["rail", "wheel"]
 
 UNITS = {"m": 1.0, "mm": 1e-3}

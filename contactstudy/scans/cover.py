@@ -1,11 +1,9 @@
 """Whether facets cover the place where a scanned surface is touched."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contactstudy.arrays import Array, BoolArray, IntArray
 from contactstudy.scans.surface import SurfaceScan, developed
-
-Array = NDArray[np.float64]
 
 _SHOWN = 3
 _NEAR = 1e-3  # distance from the fitted surface [m] within which an edge belongs to it
@@ -57,14 +55,14 @@ def uncovered(scan: SurfaceScan, x: float, s: float, half_length: float, half_wi
     return ""
 
 
-def _free_edges(faces: NDArray[np.int64]) -> NDArray[np.int64]:
+def _free_edges(faces: IntArray) -> IntArray:
     """Edges (k, 2) that belong to one triangle only."""
     edges = np.sort(np.stack([faces, np.roll(faces, -1, axis=1)], axis=-1).reshape(-1, 2), axis=1)
     unique, count = np.unique(edges, axis=0, return_counts=True)
     return np.asarray(unique[count == 1])
 
 
-def _meets_square(a: Array, b: Array) -> NDArray[np.bool_]:
+def _meets_square(a: Array, b: Array) -> BoolArray:
     """Which segments a-b (n, 2) pass through the square from -1 to 1 (Liang and Barsky 1984)."""
     d = b - a
     with np.errstate(divide="ignore", invalid="ignore"):

@@ -8,12 +8,10 @@ from typing import Literal
 
 import numpy as np
 import trimesh
-from numpy.typing import NDArray
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-Array = NDArray[np.float64]
-IntArray = NDArray[np.int64]
+from contactstudy.arrays import Array, IntArray
 
 THINNEST = 1e-5
 """Height over longest edge below which a triangle is degenerate (single precision rounds it)."""

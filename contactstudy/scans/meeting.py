@@ -5,11 +5,11 @@ from dataclasses import dataclass
 import numpy as np
 import trimesh
 
-from contactstudy.contact.facets import in_track_axes, rail_surface, wheel_surface
-from contactstudy.contact.pose import PlacedWheel, Pose
-from contactstudy.contact.smooth_touch import SmoothTouch, smooth_touch
-from contactstudy.contact.touch import FirstTouch, first_touch
 from contactstudy.exceptions import InputError
+from contactstudy.geometry.facets import in_track_axes, rail_surface, wheel_surface
+from contactstudy.geometry.pose import PlacedWheel, Pose
+from contactstudy.geometry.smooth_touch import SmoothTouch, smooth_touch
+from contactstudy.geometry.touch import FirstTouch, first_touch
 from contactstudy.profiles.curve import ProfileCurve
 from contactstudy.scans.cover import uncovered
 from contactstudy.scans.surface import SurfaceScan

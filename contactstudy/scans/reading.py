@@ -5,8 +5,8 @@ from typing import Literal
 
 import numpy as np
 import trimesh
-from numpy.typing import NDArray
 
+from contactstudy.arrays import Array, IntArray
 from contactstudy.exceptions import InputError
 from contactstudy.scans.faults import faults
 
@@ -66,7 +66,7 @@ def read_mesh(path: str | Path, unit: str, body: Body) -> trimesh.Trimesh:
     return mesh
 
 
-def _triangles(file: Path) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+def _triangles(file: Path) -> tuple[Array, IntArray]:
     """Vertices in the file's unit and triangles."""
     if file.suffix.lower() not in SUFFIXES:
         raise InputError(f"{file}: not a scan by its name; allowed: {', '.join(SUFFIXES)}")
@@ -86,13 +86,13 @@ def _triangles(file: Path) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     return np.asarray(mesh.vertices, dtype=float), np.asarray(mesh.faces, dtype=np.int64)
 
 
-def _joined(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> trimesh.Trimesh:
+def _joined(vertices: Array, faces: IntArray) -> trimesh.Trimesh:
     """Mesh whose equal vertices are one: STL repeats them in every triangle."""
     points, number = np.unique(vertices + 0.0, axis=0, return_inverse=True)
     return trimesh.Trimesh(points, number.ravel()[faces], process=False)
 
 
-def _sizes(file: Path, extents: NDArray[np.float64], unit: str, body: Body) -> list[str]:
+def _sizes(file: Path, extents: Array, unit: str, body: Body) -> list[str]:
     """Complaints about sizes that are impossible in the unit."""
     what, across, along = _SIZES[body]
 

@@ -5,9 +5,9 @@ from itertools import pairwise
 
 import numpy as np
 import scipy.sparse as sp
-from numpy.typing import NDArray
 from scipy.sparse.linalg import LinearOperator, eigsh
 
+from contactstudy.arrays import Array
 from contactstudy.profiles.rail import rail_profile
 from contactstudy.solids.chain import BlockTridiagonal, Slice, chain_blocks
 from contactstudy.solids.extrusion import ExtrudedSlice, extrude
@@ -16,8 +16,6 @@ from contactstudy.solids.recipe import CellRecipe
 from contactstudy.solids.section_mesh import SectionMesh, rail_section_mesh
 from contactstudy.solids.section_rows import SectionRows, section_rows
 from contactstudy.solids.window import MARGIN, window_response
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -10,11 +10,9 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.linalg as sl
-from numpy.typing import NDArray
 
+from contactstudy.arrays import Array
 from contactstudy.exceptions import NumericalError
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

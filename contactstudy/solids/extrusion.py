@@ -3,14 +3,11 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contactstudy.arrays import Array, IntArray
 from contactstudy.solids.chain import Slice
 from contactstudy.solids.hexahedron import hex_mass, hex_stiffness
 from contactstudy.solids.section_mesh import SectionMesh
-
-Array = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 
 @dataclass(frozen=True)

@@ -8,11 +8,9 @@ Degrees of freedom of an element: 3*node + component.
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contactstudy.arrays import Array
 from contactstudy.exceptions import InputError
-
-Array = NDArray[np.float64]
 
 _CORNERS = np.array(
     [

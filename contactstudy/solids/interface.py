@@ -1,16 +1,14 @@
 """Generalised modes of an interface plane: beam kinematics and what loads from afar add."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contactstudy.arrays import Array, BoolArray
 from contactstudy.solids.section_rows import SectionRows
 from contactstudy.solids.window import WindowResponse
 
-Array = NDArray[np.float64]
-
 
 def interface_basis(
-    response: WindowResponse, rows: SectionRows, axial: NDArray[np.bool_], count: int
+    response: WindowResponse, rows: SectionRows, axial: BoolArray, count: int
 ) -> Array:
     """Basis of the displacements of an interface plane.
 

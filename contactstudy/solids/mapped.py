@@ -1,10 +1,8 @@
 """Mapped blocks of quadrilaterals: graded edges, Coons patches, joined numbering."""
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
-IntArray = NDArray[np.int64]
+from contactstudy.arrays import Array, IntArray
 
 
 def graded(length: float, first: float, growth: float, largest: float) -> Array:

@@ -2,12 +2,8 @@
 
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
+from contactstudy.arrays import Array
 from contactstudy.solids.cell import RailCell, pair_rows
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -7,13 +7,11 @@ between its planes only.
 
 import numpy as np
 import scipy.sparse as sp
-from numpy.typing import NDArray
 
+from contactstudy.arrays import Array
 from contactstudy.solids.chain import Slice
 from contactstudy.solids.hexahedron import hex_mass, hex_stiffness
 from contactstudy.solids.wheel_section import WheelSection
-
-Array = NDArray[np.float64]
 
 
 def slice_stiffness(

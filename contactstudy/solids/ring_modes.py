@@ -4,14 +4,12 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
-from numpy.typing import NDArray
 from scipy.sparse.linalg import ArpackError, eigsh
 
+from contactstudy.arrays import Array, BoolArray
 from contactstudy.exceptions import NumericalError
 from contactstudy.solids.ring import slice_mass, slice_stiffness
 from contactstudy.solids.wheel_section import WheelSection
-
-Array = NDArray[np.float64]
 
 MOST_WAVES = 60
 """Waves round the ring beyond which no mode is looked for."""
@@ -59,7 +57,7 @@ class RingFamily:
 
 def ring_families(
     section: WheelSection,
-    free: NDArray[np.bool_],
+    free: BoolArray,
     step: float,
     material: tuple[float, float, float],
     highest: float,
@@ -138,6 +136,6 @@ def _harmonic(matrix: sp.csr_array, phase: float) -> sp.csr_array:
     return sp.csr_array(P @ same @ P + T @ same @ T + cross + cross.T)
 
 
-def _tangential(n: int) -> NDArray[np.bool_]:
+def _tangential(n: int) -> BoolArray:
     """Which dofs of a plane are tangential."""
     return np.arange(n) % 3 == 2

@@ -9,15 +9,12 @@ gauge corner the head's upper edge goes on down the side face.
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contactstudy.arrays import Array, IntArray
 from contactstudy.exceptions import InputError
 from contactstudy.profiles.rail import RailProfile
 from contactstudy.profiles.section import SectionProperties, section_properties
 from contactstudy.solids.mapped import along, graded, join, transfinite
-
-Array = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 _LOWEST = 0.010
 """m, by which the fine running surface ends above the head's lower corner at least."""

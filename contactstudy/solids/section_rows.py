@@ -3,13 +3,11 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contactstudy.arrays import Array, IntArray
 from contactstudy.profiles.rail import RailProfile
 from contactstudy.solids.extrusion import ExtrudedSlice
 from contactstudy.solids.section_mesh import SectionMesh
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -52,7 +50,7 @@ def section_rows(section: SectionMesh, profile: RailProfile, piece: ExtrudedSlic
     area = _nodal_areas(section)
     area /= area.sum()
 
-    def row(nodes: NDArray[np.int64], direction: int, values: Array) -> Array:
+    def row(nodes: IntArray, direction: int, values: Array) -> Array:
         full = np.zeros(3 * n_nodes)
         np.add.at(full, 3 * nodes + direction, values)
         return np.asarray(full[piece.free])

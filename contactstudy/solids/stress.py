@@ -4,12 +4,9 @@ A stress is stored as (xx, yy, zz, yz, zx, xy) in Pa, tension positive.
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contactstudy.arrays import Array, IntArray
 from contactstudy.solids.hexahedron import GAUSS, elasticity_matrix, strain_operators
-
-Array = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 
 def stress_tensor(stress: Array) -> Array:

@@ -14,8 +14,8 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contactstudy.arrays import Array, BoolArray, IntArray
 from contactstudy.profiles.named import wheel_curve
 from contactstudy.profiles.rail import rail_profile
 from contactstudy.solids.chain import BlockTridiagonal, Slice, repeat
@@ -24,9 +24,6 @@ from contactstudy.solids.wheel_recipe import WheelRecipe
 from contactstudy.solids.wheel_section import WheelSection
 
 __all__ = ["WheelFlexibility", "WheelRecipe", "elastic_wheel", "rigid_wheel"]
-
-Array = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 
 @dataclass(frozen=True)
@@ -123,7 +120,7 @@ def elastic_wheel(recipe: WheelRecipe) -> WheelFlexibility:
 
 
 def _slices(
-    recipe: WheelRecipe, section: WheelSection, free: NDArray[np.bool_]
+    recipe: WheelRecipe, section: WheelSection, free: BoolArray
 ) -> tuple[list[Slice], Slice]:
     """Slices from the bottom up, and the arc over the top to the mirror image of the last plane."""
     steps = [round(float(step), 12) for step in np.diff(recipe.angles)]
@@ -174,7 +171,7 @@ def _half_ring(near: list[Slice], far: Slice, loads: list[Array], sign: Array) -
     return [bottom, *solution[1:n_loaded]]
 
 
-def held_dofs(section: WheelSection) -> NDArray[np.bool_]:
+def held_dofs(section: WheelSection) -> BoolArray:
     """Degrees of freedom (3n,) of a plane that the hub and the symmetry in y hold."""
     held = np.zeros((len(section.nodes), 3), dtype=bool)
     held[section.bore] = True

@@ -18,8 +18,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 import scipy.linalg as sl
 import scipy.sparse as sp
-from numpy.typing import NDArray
 
+from contactstudy.arrays import Array, IntArray
 from contactstudy.exceptions import InputError
 from contactstudy.solids.ring import slice_mass, slice_stiffness
 from contactstudy.solids.ring_modes import ring_families
@@ -27,9 +27,6 @@ from contactstudy.solids.wheel import WheelFlexibility, held_dofs, normal_loads
 from contactstudy.solids.wheel_recipe import WheelRecipe
 from contactstudy.solids.wheel_section import WheelSection
 from contactstudy.validation import positive, raise_if
-
-Array = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 
 @dataclass(frozen=True)

@@ -3,16 +3,14 @@
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contactstudy.arrays import Array
 from contactstudy.profiles.named import wheel_curve
 from contactstudy.profiles.wheel import wheel_profile
 from contactstudy.profiles.wheel_body import WheelDimensions, file_digest
 from contactstudy.solids.wheel_section import WheelSection, fine_lines, wheel_section_mesh
 from contactstudy.solids.wheel_section_whole import fine_arcs, whole_wheel_section
 from contactstudy.validation import positive, raise_if
-
-Array = NDArray[np.float64]
 
 FAR_STEP = np.pi / 15
 """Largest angle between two planes in rad away from the contact, enough for statics."""

@@ -7,15 +7,12 @@ the rim away from the contact only. The whole section, with flange, is in `wheel
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contactstudy.arrays import Array, IntArray
 from contactstudy.exceptions import InputError
 from contactstudy.profiles.wheel import WheelProfile
 from contactstudy.profiles.wheel_body import WheelDimensions
 from contactstudy.solids.mapped import graded, join
-
-Array = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 
 @dataclass(frozen=True)

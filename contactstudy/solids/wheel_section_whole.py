@@ -3,15 +3,13 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contactstudy.arrays import Array
 from contactstudy.exceptions import InputError
 from contactstudy.profiles.curve import ProfileCurve
 from contactstudy.profiles.wheel_body import WheelDimensions
 from contactstudy.solids.mapped import along, graded, join, transfinite
 from contactstudy.solids.wheel_section import WheelSection, fine_lines
-
-Array = NDArray[np.float64]
 
 _LEAST_WEB_COLUMNS = 3
 

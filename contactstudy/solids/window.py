@@ -9,13 +9,11 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.linalg as sl
-from numpy.typing import NDArray
 
+from contactstudy.arrays import Array, IntArray
 from contactstudy.solids.chain import BlockTridiagonal, Slice, chain_blocks, repeat
 from contactstudy.solids.section_rows import SectionRows
 
-Array = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 MARGIN = 3  # cells on each side of the two loaded ones
 _AT_ONCE = 10  # planes, or somewhat more, whose loads are solved for together
 

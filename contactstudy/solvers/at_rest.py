@@ -3,18 +3,16 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from contactstudy.banded import Factor
-from contactstudy.contact.points import ContactPoints
-from contactstudy.contact.quadrature import Quadrature
+from contactstudy.arrays import Array
 from contactstudy.contact.residual import ResidualFlexibility, patch_splines
+from contactstudy.dynamics.banded import Factor
+from contactstudy.geometry.placement import Geometry, wheel_points
+from contactstudy.geometry.points import ContactPoints
+from contactstudy.geometry.quadrature import Quadrature
 from contactstudy.solids.wheel import WheelFlexibility
-from contactstudy.solvers.geometry import Geometry, wheel_points
 from contactstudy.track.solid import SolidTrack
 from contactstudy.track.unreduced import UnreducedTrack
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

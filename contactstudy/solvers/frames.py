@@ -4,13 +4,10 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
-from contactstudy.contact.coupling import SurfaceCoupling
-from contactstudy.dynamics import State
+from contactstudy.contact.surface import SurfaceCoupling
+from contactstudy.dynamics.stepper import State
 from contactstudy.solvers.patch_fields import node_coordinates, node_fields
-
-Array = NDArray[np.float64]
 
 
 class Frames:

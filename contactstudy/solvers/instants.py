@@ -5,18 +5,16 @@ from dataclasses import dataclass
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
-from contactstudy.contact.coupling import PatchState, SurfaceCoupling
-from contactstudy.contact.points import ContactPoints
-from contactstudy.dynamics import State
+from contactstudy.arrays import Array
+from contactstudy.contact.surface import PatchState, SurfaceCoupling
+from contactstudy.dynamics.stepper import State
+from contactstudy.geometry.points import ContactPoints
 from contactstudy.solids.wheel import WheelFlexibility
 from contactstudy.solids.wheel_modes import WheelModes, residual_flexibility
 from contactstudy.solvers.patch_fields import node_coordinates, node_fields, stress_variables
 from contactstudy.track.solid import SolidTrack
 from contactstudy.track.unreduced import UnreducedTrack
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

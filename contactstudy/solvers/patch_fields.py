@@ -4,13 +4,11 @@ from collections.abc import Sequence
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
-from contactstudy.contact.points import ContactPoints
-from contactstudy.contact.pressure_field import SurfacePressure, recovered_pressure
-from contactstudy.contact.subsurface import StressMaximum, stress_maxima
-
-Array = NDArray[np.float64]
+from contactstudy.arrays import Array
+from contactstudy.geometry.points import ContactPoints
+from contactstudy.halfspace.pressure_field import SurfacePressure, recovered_pressure
+from contactstudy.halfspace.subsurface import StressMaximum, stress_maxima
 
 _STATUS = "contact status: part of the node's area whose points are in contact, 0 open, 1 closed"
 _INVARIANTS = {
@@ -112,7 +110,7 @@ def stress_variables(
     """Largest stresses below the patch and where they are.
 
     They are those of an elastic half-space under the pressure of the nodes, see
-    `contactstudy.contact.subsurface`: the stresses of bending and support are left out. The
+    `contactstudy.halfspace.subsurface`: the stresses of bending and support are left out. The
     position across the rail is counted along its surface.
 
     Parameters

@@ -7,7 +7,7 @@ import xarray as xr
 
 from contactstudy.contact.laws import ContactLaw, HertzSpring, LinearSpring, RigidContact
 from contactstudy.contact.point import PointCoupling
-from contactstudy.dynamics import Integrator, average_acceleration, generalised_alpha
+from contactstudy.dynamics.stepper import Integrator, average_acceleration, generalised_alpha
 from contactstudy.exceptions import InputError
 from contactstudy.irregularity import Profile, faded
 from contactstudy.solvers.journey import Journey

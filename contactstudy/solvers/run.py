@@ -8,12 +8,12 @@ import numpy as np
 import scipy.sparse as sp
 import xarray as xr
 
-from contactstudy.banded import LinearSystem
-from contactstudy.dynamics import Coupling, Integrator, State, march
-from contactstudy.rows import row_values
+from contactstudy.dynamics.banded import LinearSystem
+from contactstudy.dynamics.rows import row_values
+from contactstudy.dynamics.statics import static_start
+from contactstudy.dynamics.stepper import Coupling, Integrator, State, march
 from contactstudy.solvers.dataset import history_dataset
 from contactstudy.solvers.journey import Journey
-from contactstudy.statics import static_start
 from contactstudy.track.discrete import DiscreteTrack
 from contactstudy.track.model import Direction
 from contactstudy.vehicle import Vehicle

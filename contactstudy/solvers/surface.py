@@ -5,18 +5,18 @@ from collections.abc import Sequence
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
-from contactstudy.contact.coupling import SurfaceCoupling
+from contactstudy.arrays import Array
 from contactstudy.contact.press import PressCurve, press_curve
-from contactstudy.contact.quadrature import Quadrature
-from contactstudy.dynamics import Integrator, average_acceleration
+from contactstudy.contact.surface import SurfaceCoupling
+from contactstudy.dynamics.stepper import Integrator, average_acceleration
+from contactstudy.geometry.placement import Geometry, candidate_list, mesh_problems, wheel_points
+from contactstudy.geometry.quadrature import Quadrature
 from contactstudy.irregularity import Profile, faded
 from contactstudy.solids.wheel import WheelFlexibility, WheelRecipe, rigid_wheel
 from contactstudy.solids.wheel_modes import WheelModes, residual_flexibility
 from contactstudy.solvers.at_rest import bodies_at_rest
 from contactstudy.solvers.frames import Frames, both
-from contactstudy.solvers.geometry import Geometry, candidate_list, mesh_problems, wheel_points
 from contactstudy.solvers.instants import Instants
 from contactstudy.solvers.journey import Journey
 from contactstudy.solvers.run import Assembly, Progress, run
@@ -24,8 +24,6 @@ from contactstudy.track.solid import SolidTrack
 from contactstudy.track.unreduced import UnreducedTrack
 from contactstudy.validation import positive, raise_if
 from contactstudy.vehicle import Vehicle, with_wheel_modes
-
-Array = NDArray[np.float64]
 
 PRESS_LOADS = np.linspace(0.25, 2.0, 8)
 """Loads of the static press that comes with a run, in static wheel loads."""

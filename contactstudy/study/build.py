@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from contactstudy import integrators
-from contactstudy.contact.hertz import HertzContact, contact_modulus, hertz_contact
 from contactstudy.contact.laws import ContactLaw, HertzSpring, LinearSpring, RigidContact
 from contactstudy.contact.press import tangent_stiffness
+from contactstudy.dynamics import integrators
+from contactstudy.halfspace.hertz import HertzContact, contact_modulus, hertz_contact
 from contactstudy.profiles.rail import rail_profile
 from contactstudy.profiles.wheel_body import wheel_dimensions
 from contactstudy.solids.cache import cached

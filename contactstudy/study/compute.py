@@ -6,6 +6,8 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from contactstudy.exceptions import ContactStudyError, InputError, NumericalError
+from contactstudy.executor import Outcome, Progress, Task, run_tasks
+from contactstudy.reporter import Reporter
 from contactstudy.study import store
 from contactstudy.study.execution import (
     condense_body,
@@ -15,9 +17,7 @@ from contactstudy.study.execution import (
 )
 from contactstudy.study.files import ensure_writable
 from contactstudy.study.plan import Plan
-from contactstudy.study.reporter import Reporter
 from contactstudy.study.schema import Study
-from contactstudy.sweep import Outcome, Progress, Task, run_tasks
 
 
 def compute(plan: Plan, jobs: int, reporter: Reporter) -> None:

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import xarray as xr
 
+from contactstudy.executor import Progress
 from contactstudy.solids.cache import entry_path
 from contactstudy.study import build
 from contactstudy.study.placing import geometry
@@ -14,7 +15,6 @@ from contactstudy.study.roughness import irregularity_of
 from contactstudy.study.runs import PointRun, SurfaceRun
 from contactstudy.study.schema import Study
 from contactstudy.study.vehicles import vehicle
-from contactstudy.sweep import Progress
 
 
 def execute_run(study: Study, run: str, progress: Progress | None = None) -> xr.Dataset:

@@ -8,14 +8,14 @@ from pathlib import Path
 import numpy as np
 
 from contactstudy import __version__
-from contactstudy.contact.hertz import contact_modulus, hertz_contact
 from contactstudy.exceptions import InputError
 from contactstudy.export.calculix import calculix_input
 from contactstudy.export.press_mesh import PressMesh, press_mesh
+from contactstudy.geometry.placement import Geometry
+from contactstudy.halfspace.hertz import contact_modulus, hertz_contact
 from contactstudy.profiles.rail import rail_profile
 from contactstudy.solids.recipe import CellRecipe
 from contactstudy.solids.wheel_recipe import WheelRecipe
-from contactstudy.solvers.geometry import Geometry
 from contactstudy.study import build
 from contactstudy.study.files import writing
 from contactstudy.study.messages import complaint, did_you_mean

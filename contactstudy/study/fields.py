@@ -8,7 +8,7 @@ For every instant k of a run two files, and one collection with their times::
 
 Positions are relative to the wheel, in metres: x along the rail, y across it, z up from the
 running surface, which is laid out flat. The stresses are those of an elastic half-space under
-the pressure, see `contactstudy.contact.subsurface`.
+the pressure, see `contactstudy.halfspace.subsurface`.
 """
 
 from __future__ import annotations
@@ -20,16 +20,14 @@ from xml.sax.saxutils import quoteattr
 import meshio
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
-from contactstudy.contact.pressure_field import SurfacePressure
-from contactstudy.contact.subsurface import SHALLOWEST, half_space_stress
+from contactstudy.arrays import Array
+from contactstudy.halfspace.pressure_field import SurfacePressure
+from contactstudy.halfspace.subsurface import SHALLOWEST, half_space_stress
 from contactstudy.solids.stress import maximum_shear, von_mises
 from contactstudy.solvers.patch_fields import instant_pressure
 from contactstudy.study.files import writing
 from contactstudy.study.results import StudyResults
-
-Array = NDArray[np.float64]
 
 FIELDS = "fields"
 _PARTS = ("patch", "below")

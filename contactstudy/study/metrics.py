@@ -10,7 +10,7 @@
         sprague_geers {M, P, C}, sprague_geers_dynamic {M, P, C},
         third_octave {nominal centre in Hz: level less the reference's in dB}
 
-Both signals are compared at equal wheel positions behind the fade-in; `contactstudy.errors`
+Both signals are compared at equal wheel positions behind the fade-in; `contactstudy.compare.norms`
 defines the norms. ``linf`` and ``rms`` are in the signal's SI unit. The dynamic part is what is
 left of a signal when its own value in the static start is taken off. A norm that does not exist,
 because a signal is zero or constant, is null.
@@ -24,9 +24,9 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
-from contactstudy import errors
+from contactstudy.arrays import Array
+from contactstudy.compare import norms as errors
 from contactstudy.irregularity.estimate import third_octave_levels
 
 SIGNALS = ("contact_force", "wheel_displacement", "wheel_acceleration", "rail_displacement")
@@ -110,9 +110,7 @@ def compare_signals(run: xr.Dataset, reference: xr.Dataset, name: str, start: fl
     }
 
 
-def level_differences(
-    a: NDArray[np.float64], b: NDArray[np.float64], x: NDArray[np.float64], speed: float
-) -> dict[str, float]:
+def level_differences(a: Array, b: Array, x: Array, speed: float) -> dict[str, float]:
     """Third-octave levels of `a` less those of `b`: nominal centre in Hz -> dB.
 
     Bands as in `contactstudy.irregularity.third_octave_levels`, of the whole record in time;
@@ -134,7 +132,7 @@ def level_differences(
     }
 
 
-def _sprague_geers(a: Any, b: Any, x: NDArray[np.float64]) -> dict[str, float | None]:
+def _sprague_geers(a: Any, b: Any, x: Array) -> dict[str, float | None]:
     found = errors.sprague_geers(a, b, x)
     return {
         "M": _number(found.magnitude),
@@ -143,7 +141,7 @@ def _sprague_geers(a: Any, b: Any, x: NDArray[np.float64]) -> dict[str, float | 
     }
 
 
-def _position(run: xr.Dataset) -> NDArray[np.float64]:
+def _position(run: xr.Dataset) -> Array:
     """Position (n,) of the leading wheel in m."""
     position = run["position"]
     return np.asarray((position.isel(wheel=0) if "wheel" in position.dims else position).values)

@@ -7,11 +7,12 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
-from contactstudy.contact.pose import Pose
-from contactstudy.contact.smooth_touch import SmoothTouch
+from contactstudy.arrays import Array
 from contactstudy.exceptions import InputError
+from contactstudy.geometry.placement import Geometry
+from contactstudy.geometry.pose import Pose
+from contactstudy.geometry.smooth_touch import SmoothTouch
 from contactstudy.profiles.curve import ProfileCurve
 from contactstudy.profiles.named import wheel_curve
 from contactstudy.profiles.rail import rail_profile
@@ -19,12 +20,9 @@ from contactstudy.profiles.wheel_body import wheel_dimensions
 from contactstudy.scans import Meeting
 from contactstudy.solids.section_mesh import fine_reach
 from contactstudy.solids.wheel_section_whole import fine_arcs, tread_reach
-from contactstudy.solvers.geometry import Geometry
 from contactstudy.study.schema import Study
 from contactstudy.study.vehicles import vehicle
 from contactstudy.study.wheelset import complaint_of_position
-
-Array = NDArray[np.float64]
 
 RAIL_MARGIN = 0.002
 """m, by which the rail's fine running surface reaches beyond the wheel's contact points."""

@@ -12,9 +12,9 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, ValidationError
 
-from contactstudy.contact.hertz import contact_modulus
-from contactstudy.contact.wheelset import Wheelset
 from contactstudy.exceptions import InputError
+from contactstudy.geometry.wheelset import Wheelset
+from contactstudy.halfspace.hertz import contact_modulus
 from contactstudy.profiles.curve import ProfileCurve
 from contactstudy.profiles.named import rail_curve, wheel_curve
 from contactstudy.study import quantities as q

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from contactstudy.contact.first_press import first_press
-from contactstudy.contact.patch_grid import Bodies
-from contactstudy.contact.patches import JOIN
-from contactstudy.contact.wheelset import SIDES, Side
 from contactstudy.exceptions import ContactStudyError, InputError
+from contactstudy.geometry.wheelset import SIDES, Side
+from contactstudy.halfspace.first_press import first_press
+from contactstudy.halfspace.patch_grid import Bodies
+from contactstudy.halfspace.patches import JOIN
+from contactstudy.reporter import Quiet, Reporter
 from contactstudy.study.positions import PositionsStudy
-from contactstudy.study.reporter import Quiet, Reporter
 from contactstudy.study.wheelset import complaint_of_position, derailed
 from contactstudy.validation import raise_if
 

@@ -10,16 +10,16 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from contactstudy.contact.patches import press_wheel
-from contactstudy.contact.wheelset import Side
 from contactstudy.exceptions import InputError, NumericalError
+from contactstudy.geometry.wheelset import Side
+from contactstudy.halfspace.patches import press_wheel
 from contactstudy.profiles.curve import ProfileCurve
 from contactstudy.provenance import provenance, versions
+from contactstudy.reporter import Quiet, Reporter
 from contactstudy.study import store
 from contactstudy.study.files import ensure_writable, writing
 from contactstudy.study.positions import PositionsStudy
 from contactstudy.study.positions_check import check_positions, pressings, roll_of
-from contactstudy.study.reporter import Quiet, Reporter
 from contactstudy.study.results import RESULT_FILE
 
 CSV_FILE = "patches.csv"

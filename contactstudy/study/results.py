@@ -22,14 +22,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
+from contactstudy.arrays import Array
 from contactstudy.exceptions import InputError
 from contactstudy.study.files import netcdf_attributes, writing
-
-FloatArray = NDArray[np.float64]
 
 RESULT_FILE = "result.nc"
 METRICS_FILE = "metrics.json"
@@ -54,8 +51,8 @@ class Spectrum:
     """
 
     label: str
-    wavenumber: FloatArray
-    density: FloatArray
+    wavenumber: Array
+    density: Array
     band: tuple[float, float]
 
 
@@ -64,8 +61,8 @@ class Level:
     """A profile over position: ``position`` (n,) in m and ``level`` (n,) in m, up positive."""
 
     label: str
-    position: FloatArray
-    level: FloatArray
+    position: Array
+    level: Array
 
 
 @dataclass(frozen=True)

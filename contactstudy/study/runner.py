@@ -8,6 +8,7 @@ from pathlib import Path
 
 from contactstudy.exceptions import ContactStudyError, InputError
 from contactstudy.provenance import provenance
+from contactstudy.reporter import Quiet, Reporter
 from contactstudy.study import store
 from contactstudy.study.build import recipe
 from contactstudy.study.compute import compute
@@ -15,7 +16,6 @@ from contactstudy.study.fields import FIELDS, write_fields
 from contactstudy.study.files import ensure_writable, writing
 from contactstudy.study.metrics import study_metrics
 from contactstudy.study.plan import Plan, plan_study
-from contactstudy.study.reporter import Quiet, Reporter
 from contactstudy.study.results import (
     METRICS_FILE,
     RESULT_FILE,

@@ -6,8 +6,8 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any, Literal
 
-from contactstudy.contact.pose import Pose
 from contactstudy.exceptions import InputError
+from contactstudy.geometry.pose import Pose
 from contactstudy.profiles.curve import ProfileCurve
 from contactstudy.scans import Meeting, SurfaceScan, meeting, scanned_surface
 from contactstudy.study import quantities as q

@@ -8,9 +8,9 @@ from typing import Literal
 
 import numpy as np
 
-from contactstudy.contact.pose import Pose
-from contactstudy.contact.wheelset import SIDES, Side, Wheelset
 from contactstudy.exceptions import ContactStudyError, InputError
+from contactstudy.geometry.pose import Pose
+from contactstudy.geometry.wheelset import SIDES, Side, Wheelset
 from contactstudy.profiles.curve import ProfileCurve
 from contactstudy.profiles.named import rail_curve, wheel_curve
 from contactstudy.study import quantities as q

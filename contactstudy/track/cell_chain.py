@@ -5,14 +5,11 @@ from functools import cached_property
 
 import numpy as np
 import scipy.sparse as sp
-from numpy.typing import NDArray
 
+from contactstudy.arrays import Array, IntArray
 from contactstudy.solids.cell import RailCell
 from contactstudy.track.model import Ends
 from contactstudy.track.supports import PadMotion, PadRow
-
-Array = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 # coordinates of an interface plane that are its rigid motions, see `interface_basis`
 _AXIAL, _VERTICAL, _LATERAL, _ROLL = 0, 1, 3, 5

@@ -2,10 +2,7 @@
 
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
-Array = NDArray[np.float64]
+from contactstudy.arrays import Array, IntArray
 
 
 @dataclass(frozen=True)
@@ -45,14 +42,14 @@ class SurfacePatch:
     """
 
     key: int
-    dofs: NDArray[np.int64]
+    dofs: IntArray
     map: Array
     residual: Array
     local: Array | None
     x: Array
     y: Array
     arc: Array
-    centre_dofs: NDArray[np.int64]
+    centre_dofs: IntArray
     centre_map: Array
     centre_residual: Array
 
@@ -78,7 +75,7 @@ class SectionResponse:
 
     position: float
     nodes: Array
-    quads: NDArray[np.int64]
-    dofs: NDArray[np.int64]
+    quads: IntArray
+    dofs: IntArray
     map: Array
     residual: Array

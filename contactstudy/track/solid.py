@@ -4,8 +4,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contactstudy.arrays import Array, BoolArray, IntArray
 from contactstudy.exceptions import InputError
 from contactstudy.solids.cell import RailCell, section_of
 from contactstudy.solids.pair import CellPair, cell_pair
@@ -15,9 +15,6 @@ from contactstudy.track.discrete import AssembledTrack
 from contactstudy.track.model import DiscreteSupports, Rail, Track, WinklerFoundation
 from contactstudy.track.patch import SectionResponse, SurfacePatch
 from contactstudy.track.supports import SupportedRail, add_supports
-
-Array = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 
 def solid_rail(recipe: CellRecipe) -> Rail:
@@ -235,7 +232,7 @@ class SolidTrack(AssembledTrack):
         held = dofs < 0
         return np.where(held, 0, dofs), np.where(held, 0.0, weights)
 
-    def _pair_dofs(self, pair: int) -> tuple[IntArray, NDArray[np.bool_]]:
+    def _pair_dofs(self, pair: int) -> tuple[IntArray, BoolArray]:
         first = pair * self._chain.step
         dofs = self._dof_of_bare[first : first + 2 * self._chain.step + self.recipe.interface_modes]
         held = dofs < 0

@@ -8,8 +8,8 @@ from functools import cached_property
 
 import numpy as np
 import scipy.sparse as sp
-from numpy.typing import NDArray
 
+from contactstudy.arrays import Array, IntArray
 from contactstudy.exceptions import InputError
 from contactstudy.solids.cell import section_of
 from contactstudy.solids.chain import Slice
@@ -22,9 +22,6 @@ from contactstudy.track.discrete import AssembledTrack
 from contactstudy.track.model import Track, WinklerFoundation
 from contactstudy.track.patch import SectionResponse, SurfacePatch
 from contactstudy.track.supports import PadRow, SupportedRail, add_supports
-
-Array = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 
 @dataclass(frozen=True)

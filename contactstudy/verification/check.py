@@ -149,7 +149,7 @@ class CaseResult:
     Attributes
     ----------
     name : str
-        As registered in `contactstudy.verification.cases`.
+        As registered in `contactstudy.verification.registry`.
     title : str
     method : str
         What is compared with what, and how; paragraphs are parted by an empty line.

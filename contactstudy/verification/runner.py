@@ -8,15 +8,15 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
-from contactstudy import sweep
+from contactstudy import executor as sweep
 from contactstudy.exceptions import ContactStudyError
+from contactstudy.executor import Progress, Task, run_tasks
 from contactstudy.provenance import versions
+from contactstudy.reporter import Quiet, Reporter
 from contactstudy.study import store
 from contactstudy.study.files import ensure_writable, writing
-from contactstudy.study.reporter import Quiet, Reporter
-from contactstudy.sweep import Progress, Task, run_tasks
-from contactstudy.verification.cases import Case
 from contactstudy.verification.outcome import Outcome, from_data, judged, to_data
+from contactstudy.verification.registry import Case
 
 KEPT = "cases"
 """Folder of the output in which finished cases are kept."""

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 import scipy.sparse as sp
 
-from contactstudy.banded import Factor, LinearSystem
+from contactstudy.dynamics.banded import Factor, LinearSystem
 from contactstudy.exceptions import NumericalError
 
 

@@ -8,11 +8,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from contactstudy.contact.augmented import AugmentedLagrangian, Penalty, enforcement
-from contactstudy.contact.points import ContactPoints, contact_points
 from contactstudy.contact.press import press_curve
 from contactstudy.exceptions import InputError, NumericalError
+from contactstudy.geometry.points import ContactPoints, contact_points
 from contactstudy.profiles import rail_profile, wheel_profile
-from contactstudy.solids.boussinesq import boussinesq
+from contactstudy.verification.cases.boussinesq import boussinesq
 
 TOLERANCE = 1e-9
 

@@ -7,10 +7,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial import Delaunay
 
-from contactstudy.contact.boxes import facet_boxes
-from contactstudy.contact.search import CandidateList, FacetSearch, grid_surface
-from contactstudy.contact.touch import first_touch
 from contactstudy.exceptions import InputError
+from contactstudy.geometry.boxes import facet_boxes
+from contactstudy.geometry.search import CandidateList, FacetSearch, grid_surface
+from contactstudy.geometry.touch import first_touch
 
 
 def scanned(rng, n, height, half, noise, up):

@@ -6,14 +6,14 @@ import scipy.sparse as sp
 from scipy.interpolate import make_interp_spline
 from scipy.optimize import nnls
 
-from contactstudy.banded import Factor
-from contactstudy.contact.coupling import SurfaceCoupling
-from contactstudy.contact.points import contact_points
-from contactstudy.contact.search import CandidateList, FacetSearch, grid_surface
+from contactstudy.contact.surface import SurfaceCoupling
+from contactstudy.dynamics.banded import Factor
 from contactstudy.exceptions import NumericalError
+from contactstudy.geometry.points import contact_points
+from contactstudy.geometry.search import CandidateList, FacetSearch, grid_surface
 from contactstudy.profiles import rail_profile, wheel_profile
-from contactstudy.solids.boussinesq import boussinesq
 from contactstudy.track.patch import SurfacePatch
+from contactstudy.verification.cases.boussinesq import boussinesq
 
 RAIL, STEP, N_TRACK, PENALTY = rail_profile("60E1"), 2e-3, 9, 1e16
 

@@ -7,17 +7,17 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from contactstudy.contact.boxes import largest_sagitta
-from contactstudy.contact.facets import (
+from contactstudy.geometry.boxes import largest_sagitta
+from contactstudy.geometry.facets import (
     in_track_axes,
     placed_candidates,
     rail_surface,
     wheel_surface,
 )
-from contactstudy.contact.placed import placed_points
-from contactstudy.contact.pose import PlacedWheel, Pose
-from contactstudy.contact.smooth_touch import smooth_touch
-from contactstudy.contact.touch import first_touch
+from contactstudy.geometry.placed import placed_points
+from contactstudy.geometry.pose import PlacedWheel, Pose
+from contactstudy.geometry.smooth_touch import smooth_touch
+from contactstudy.geometry.touch import first_touch
 from contactstudy.profiles.named import rail_curve, wheel_curve
 
 RAIL, WHEELS = rail_curve("60E1"), {n: wheel_curve(n) for n in ("S1002", "cone", "cylinder")}

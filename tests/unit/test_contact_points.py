@@ -4,9 +4,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.interpolate import make_interp_spline
 
-from contactstudy.contact.interpolation import SplineLine, grid_rows, linear_rows
-from contactstudy.contact.points import contact_points, rolling_drop
 from contactstudy.exceptions import InputError
+from contactstudy.geometry.interpolation import SplineLine, grid_rows, linear_rows
+from contactstudy.geometry.points import contact_points, rolling_drop
 from contactstudy.profiles import rail_profile, wheel_profile
 
 LINES = np.array([0.0, 1.0, 2.5, 3.0, 4.5, 6.0])

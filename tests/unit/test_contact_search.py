@@ -6,13 +6,13 @@ import trimesh
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from contactstudy.contact.points import ContactPoints, contact_points
-from contactstudy.contact.search import CandidateList, FacetSearch, grid_surface
-from contactstudy.contact.surface import contact_forces
-from contactstudy.contact.touch import first_touch
+from contactstudy.contact.complementarity import contact_forces
 from contactstudy.exceptions import InputError
+from contactstudy.geometry.points import ContactPoints, contact_points
+from contactstudy.geometry.search import CandidateList, FacetSearch, grid_surface
+from contactstudy.geometry.touch import first_touch
 from contactstudy.profiles import rail_profile, wheel_profile
-from contactstudy.solids.boussinesq import boussinesq
+from contactstudy.verification.cases.boussinesq import boussinesq
 
 RAIL, WHEEL = rail_profile("60E1"), wheel_profile("cylinder")
 

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import nnls
 
-from contactstudy.contact.surface import contact_forces, press
+from contactstudy.contact.complementarity import contact_forces, press
 from contactstudy.exceptions import InputError, NumericalError
 
 

@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 import scipy.sparse as sp
 
-from contactstudy.banded import LinearSystem
-from contactstudy.dynamics import (
+from contactstudy.dynamics.banded import LinearSystem
+from contactstudy.dynamics.stepper import (
     State,
     average_acceleration,
     generalised_alpha,

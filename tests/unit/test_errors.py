@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from contactstudy import errors
+from contactstudy.compare import norms as errors
 from contactstudy.exceptions import InputError
 
 X = np.linspace(0.0, 2.0, 20001)

@@ -10,18 +10,18 @@ import trimesh
 from scipy.sparse.linalg import splu
 
 from contactstudy import cli
-from contactstudy.contact.placed import surface_gap
-from contactstudy.contact.pose import PlacedWheel, Pose
 from contactstudy.exceptions import InputError
 from contactstudy.export.calculix import calculix_input
 from contactstudy.export.press_mesh import FACES, press_mesh
+from contactstudy.geometry.placed import surface_gap
+from contactstudy.geometry.placement import Geometry
+from contactstudy.geometry.pose import PlacedWheel, Pose
 from contactstudy.profiles import rail_curve, wheel_curve
 from contactstudy.solids.hexahedron import hex_stiffness
 from contactstudy.solids.recipe import CellRecipe
 from contactstudy.solids.wheel import elastic_wheel
 from contactstudy.solids.wheel_recipe import WheelRecipe
 from contactstudy.solids.wheel_section import WheelDimensions
-from contactstudy.solvers.geometry import Geometry
 from contactstudy.track.model import Track
 from contactstudy.track.solid import solid_rail
 from contactstudy.track.unreduced import UnreducedTrack

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from contactstudy.contact.points import contact_points
+from contactstudy.geometry.points import contact_points
 from contactstudy.profiles import rail_profile, wheel_profile
 from contactstudy.solvers.patch_fields import node_coordinates, node_fields, stress_variables
 from contactstudy.study import fields

@@ -2,9 +2,9 @@ import numpy as np
 import pytest
 
 from contactstudy.exceptions import InputError
-from contactstudy.solids.boussinesq import boussinesq
-from contactstudy.solids.graded import graded_lines
-from contactstudy.solids.halfspace import half_space_patch
+from contactstudy.verification.cases.boussinesq import boussinesq
+from contactstudy.verification.cases.graded import graded_lines
+from contactstudy.verification.cases.halfspace import half_space_patch
 
 
 def test_graded_lines() -> None:

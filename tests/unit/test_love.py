@@ -4,17 +4,17 @@ import numpy as np
 import pytest
 from scipy.integrate import dblquad
 
-from contactstudy.contact.hertz import contact_modulus, hertz_contact
-from contactstudy.contact.love import (
+from contactstudy.contact.complementarity import contact_forces
+from contactstudy.exceptions import InputError, NumericalError
+from contactstudy.halfspace.hertz import contact_modulus, hertz_contact
+from contactstudy.halfspace.love import (
     GridTooSmallError,
     LoveGrid,
     contact_pressure,
     influence_matrix,
     love_influence,
 )
-from contactstudy.contact.surface import contact_forces
-from contactstudy.exceptions import InputError, NumericalError
-from contactstudy.verification.order import fitted_order
+from contactstudy.verification.cases.order import fitted_order
 
 MODULUS = contact_modulus(210e9, 0.3)
 

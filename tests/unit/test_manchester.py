@@ -5,11 +5,11 @@ import math
 import numpy as np
 import pytest
 
-from contactstudy.contact.patches import press_wheel
-from contactstudy.contact.pose import PlacedWheel
+from contactstudy.geometry.pose import PlacedWheel
+from contactstudy.halfspace.patches import press_wheel
 from contactstudy.profiles.named import rail_curve, wheel_curve
-from contactstudy.verification.friction import vertical_friction
-from contactstudy.verification.manchester import (
+from contactstudy.verification.cases.friction import vertical_friction
+from contactstudy.verification.cases.manchester import (
     INCLINATION,
     MODULUS,
     RADIUS,

@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
+from contactstudy.compare.passing import passing_amplitude
 from contactstudy.exceptions import InputError
-from contactstudy.passing import passing_amplitude
 
 
 def test_components_of_a_known_signal():

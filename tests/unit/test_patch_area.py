@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from contactstudy.contact.hertz import contact_modulus, hertz_contact
-from contactstudy.contact.patch_area import area_below, patch_area
-from contactstudy.contact.quadrature import point_line
+from contactstudy.contact.area import area_below, patch_area
 from contactstudy.exceptions import NumericalError
-from contactstudy.verification.blocks import blocks
-from contactstudy.verification.hertz import relative_radii
+from contactstudy.geometry.quadrature import point_line
+from contactstudy.halfspace.hertz import contact_modulus, hertz_contact
+from contactstudy.verification.cases.blocks import blocks
+from contactstudy.verification.cases.hertz import relative_radii
 
 MODULUS, RADIUS = contact_modulus(), 0.3
 LOADS = np.geomspace(20e3, 200e3, 13)

@@ -3,16 +3,16 @@
 import numpy as np
 import pytest
 
-from contactstudy.contact.hertz import contact_modulus, hertz_contact
-from contactstudy.contact.love import influence_matrix
-from contactstudy.contact.patch_filter import (
+from contactstudy.contact.complementarity import PressedForces, press
+from contactstudy.exceptions import InputError
+from contactstudy.halfspace.hertz import contact_modulus, hertz_contact
+from contactstudy.halfspace.love import influence_matrix
+from contactstudy.verification.cases.filter_of_patch import (
     ellipse_filter,
     load_weights,
     pressed_filter,
     small_amplitude_filter,
 )
-from contactstudy.contact.surface import PressedForces, press
-from contactstudy.exceptions import InputError
 
 RADII, LOAD, CELL = (0.43, 0.30), 80e3, 1e-3
 A = hertz_contact(LOAD, contact_modulus(), *RADII).semi_axis_x

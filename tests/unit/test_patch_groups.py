@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from contactstudy.contact.patch_groups import contact_area, patch_forces, patch_record
-from contactstudy.contact.points import contact_points
+from contactstudy.contact.groups import contact_area, patch_forces, patch_record
+from contactstudy.geometry.points import contact_points
 from contactstudy.profiles.rail import rail_profile
 from contactstudy.profiles.wheel import wheel_profile
 

@@ -6,13 +6,13 @@ import re
 import numpy as np
 import pytest
 
-from contactstudy.contact.hertz import contact_modulus, hertz_contact
-from contactstudy.contact.love import influence_matrix
-from contactstudy.contact.patch_grid import Bodies
-from contactstudy.contact.patches import press_wheel
-from contactstudy.contact.pose import PlacedWheel, Pose
-from contactstudy.contact.surface import press
+from contactstudy.contact.complementarity import press
 from contactstudy.exceptions import InputError
+from contactstudy.geometry.pose import PlacedWheel, Pose
+from contactstudy.halfspace.hertz import contact_modulus, hertz_contact
+from contactstudy.halfspace.love import influence_matrix
+from contactstudy.halfspace.patch_grid import Bodies
+from contactstudy.halfspace.patches import press_wheel
 from contactstudy.profiles.named import rail_curve, wheel_curve
 
 RAIL, MODULUS = rail_curve(), contact_modulus(210e9, 0.3)

@@ -7,12 +7,12 @@ import pytest
 import trimesh
 from scipy.spatial import cKDTree
 
-from contactstudy.contact.placed import placed_points, surface_gap
-from contactstudy.contact.points import contact_points
-from contactstudy.contact.pose import PlacedWheel, Pose
-from contactstudy.contact.smooth_touch import smooth_touch
-from contactstudy.contact.touch import first_touch
 from contactstudy.exceptions import InputError
+from contactstudy.geometry.placed import placed_points, surface_gap
+from contactstudy.geometry.points import contact_points
+from contactstudy.geometry.pose import PlacedWheel, Pose
+from contactstudy.geometry.smooth_touch import smooth_touch
+from contactstudy.geometry.touch import first_touch
 from contactstudy.profiles import rail_profile, wheel_profile
 from contactstudy.profiles.named import rail_curve, wheel_curve
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from contactstudy.contact.laws import HertzSpring, LinearSpring, MovingForce, RigidContact
-from contactstudy.dynamics import average_acceleration, generalised_alpha
+from contactstudy.dynamics.stepper import average_acceleration, generalised_alpha
 from contactstudy.exceptions import InputError, NumericalError
 from contactstudy.irregularity import HarmonicProfile, SmoothRail
 from contactstudy.solvers.journey import Journey

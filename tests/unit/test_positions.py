@@ -10,8 +10,8 @@ import pytest
 import xarray as xr
 
 from contactstudy import cli
-from contactstudy.contact.hertz import contact_modulus, hertz_contact
 from contactstudy.exceptions import InputError, NumericalError
+from contactstudy.halfspace.hertz import contact_modulus, hertz_contact
 from contactstudy.profiles.named import wheel_curve
 from contactstudy.study import positions_run
 from contactstudy.study.positions import Series, load_positions

@@ -8,16 +8,16 @@ import trimesh
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from contactstudy.contact.pose import PlacedWheel, Pose
-from contactstudy.contact.smooth_touch import smooth_touch
 from contactstudy.exceptions import InputError
+from contactstudy.geometry.pose import PlacedWheel, Pose
+from contactstudy.geometry.smooth_touch import smooth_touch
 from contactstudy.profiles.named import rail_curve, wheel_curve
 from contactstudy.profiles.scanned_rail import fit_rail_head
 from contactstudy.profiles.scanned_wheel import fit_wheel_tread
 from contactstudy.scans import SurfaceScan, meeting, uncovered
 from contactstudy.scans.surface import developed
 from contactstudy.study.scan import ScanTable
-from contactstudy.verification.scans import synthetic_scan
+from contactstudy.verification.cases.scans import synthetic_scan
 
 RAIL, S1002 = rail_curve("60E1"), wheel_curve("S1002")
 RADIUS, POSE = 0.46, Pose(math.atan(1 / 40))

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 import scipy.sparse as sp
 
-from contactstudy.banded import LinearSystem
-from contactstudy.dynamics import ContactStep
+from contactstudy.dynamics.banded import LinearSystem
+from contactstudy.dynamics.statics import static_start
+from contactstudy.dynamics.stepper import ContactStep
 from contactstudy.exceptions import NumericalError
-from contactstudy.statics import static_start
 
 STIFFNESS, LOAD = 1e9, 70e3
 

@@ -6,8 +6,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from contactstudy.contact.placed import placed_points
 from contactstudy.exceptions import InputError
+from contactstudy.geometry.placed import placed_points
 from contactstudy.solids.cell import section_of
 from contactstudy.study import build
 from contactstudy.study.loading import load_study

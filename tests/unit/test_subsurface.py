@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-from contactstudy.contact.pressure_field import (
+from contactstudy.exceptions import InputError
+from contactstudy.halfspace.pressure_field import (
     SurfacePressure,
     bilinear_pressure,
     recovered_pressure,
 )
-from contactstudy.contact.subsurface import half_space_stress, stress_maxima
-from contactstudy.exceptions import InputError
+from contactstudy.halfspace.subsurface import half_space_stress, stress_maxima
 from contactstudy.solids.stress import maximum_shear, von_mises
 
 POINTS = np.array([[0.3, -0.2, 0.8], [-1.4, 0.5, 0.25], [0.02, 1.3, 0.1], [0.1, 0.45, 0.6]])

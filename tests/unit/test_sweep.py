@@ -9,7 +9,7 @@ import time
 import pytest
 
 from contactstudy.exceptions import ContactStudyError, InputError, NumericalError
-from contactstudy.sweep import ONE_THREAD, Outcome, Task, run_tasks
+from contactstudy.executor import ONE_THREAD, Outcome, Task, run_tasks
 
 
 @pytest.fixture
@@ -25,7 +25,7 @@ def double(x, progress):
     return 2 * x
 
 def environment(progress):
-    from contactstudy.sweep import ONE_THREAD
+    from contactstudy.executor import ONE_THREAD
     ignored = signal.getsignal(signal.SIGINT) == signal.SIG_IGN
     return {name: os.environ.get(name) for name in ONE_THREAD}, ignored, os.getpid()
 

@@ -10,12 +10,11 @@ import pytest
 from contactstudy import cli
 from contactstudy.exceptions import InputError, NumericalError
 from contactstudy.report.verification import write_verification
-from contactstudy.verification import cases as registry
-from contactstudy.verification import runner
-from contactstudy.verification.cases import Case, select
+from contactstudy.verification import registry, runner
+from contactstudy.verification.cases.order import fitted_order
 from contactstudy.verification.check import CaseResult, Check, Curve, Plot, Table, curve, describe
-from contactstudy.verification.order import fitted_order
 from contactstudy.verification.outcome import from_data, judged, to_data
+from contactstudy.verification.registry import Case, select
 
 
 def check(computed=1.004, reference=1.0, band=0.01, **more):

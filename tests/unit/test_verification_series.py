@@ -7,9 +7,14 @@ import pytest
 import xarray as xr
 
 from contactstudy.study.tables import JourneyTable
-from contactstudy.verification.refinements import short_study, with_time_step
-from contactstudy.verification.series import Series, common, differences, series
-from contactstudy.verification.series_report import figure, left_checks, peak_over_hertz, tables
+from contactstudy.verification.cases.refinements import short_study, with_time_step
+from contactstudy.verification.cases.series import Series, common, differences, series
+from contactstudy.verification.cases.series_report import (
+    figure,
+    left_checks,
+    peak_over_hertz,
+    tables,
+)
 
 STATIC, SPEED = 7e4, 80.0
 

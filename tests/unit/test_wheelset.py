@@ -5,12 +5,12 @@ import math
 import pytest
 from scipy.optimize import brentq
 
-from contactstudy.contact.patches import press_wheel
-from contactstudy.contact.pose import Pose
-from contactstudy.contact.wheelset import SIDES, Wheelset
 from contactstudy.exceptions import InputError
+from contactstudy.geometry.pose import Pose
+from contactstudy.geometry.wheelset import SIDES, Wheelset
+from contactstudy.halfspace.patches import press_wheel
 from contactstudy.profiles.named import rail_curve, wheel_curve
-from contactstudy.verification import manchester as m
+from contactstudy.verification.cases import manchester as m
 
 
 @pytest.fixture(scope="module")

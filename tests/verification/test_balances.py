@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from contactstudy.contact.laws import HertzSpring, LinearSpring, RigidContact
-from contactstudy.dynamics import average_acceleration
-from contactstudy.energy import energy_balance
+from contactstudy.dynamics.energy import energy_balance
+from contactstudy.dynamics.stepper import average_acceleration
 from contactstudy.irregularity import SmoothRail, paper_spectrum, sample_profile
 from contactstudy.solvers.journey import Journey
 from contactstudy.solvers.point import point_contact, point_coupling

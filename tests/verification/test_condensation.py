@@ -5,7 +5,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from contactstudy.banded import Factor
+from contactstudy.dynamics.banded import Factor
 from contactstudy.solids.cell import condense
 from contactstudy.solids.recipe import CellRecipe
 from contactstudy.track.beam import BeamTrack

@@ -2,7 +2,7 @@
 
 import pytest
 
-from contactstudy.convergence import grid_convergence, observed_order
+from contactstudy.compare.convergence import grid_convergence, observed_order
 from contactstudy.exceptions import InputError, NumericalError
 
 

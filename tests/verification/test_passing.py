@@ -6,10 +6,10 @@ every component at the element length is the mesh's own.
 
 import pytest
 
-from contactstudy.contact.hertz import contact_modulus, hertz_contact
+from contactstudy.compare.passing import passing_amplitude
 from contactstudy.contact.laws import HertzSpring
+from contactstudy.halfspace.hertz import contact_modulus, hertz_contact
 from contactstudy.irregularity import SmoothRail
-from contactstudy.passing import passing_amplitude
 from contactstudy.solvers.journey import Journey
 from contactstudy.solvers.point import point_contact
 from contactstudy.track.model import DiscreteSupports, Track, WinklerFoundation

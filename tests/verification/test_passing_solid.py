@@ -2,9 +2,9 @@
 
 import numpy as np
 
+from contactstudy.compare.passing import passing_amplitude
 from contactstudy.contact.laws import HertzSpring
 from contactstudy.irregularity import SmoothRail
-from contactstudy.passing import passing_amplitude
 from contactstudy.solids.cell import condense
 from contactstudy.solids.recipe import CellRecipe
 from contactstudy.solids.wheel import WheelRecipe, elastic_wheel

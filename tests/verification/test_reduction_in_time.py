@@ -6,8 +6,8 @@ Issue of both tests: the condensed cells must not be seen in the contact force.
 import numpy as np
 import pytest
 
+from contactstudy.compare.passing import passing_amplitude
 from contactstudy.irregularity import SmoothRail, paper_spectrum, sample_profile
-from contactstudy.passing import passing_amplitude
 from contactstudy.solids.cell import condense
 from contactstudy.solids.recipe import CellRecipe
 from contactstudy.solids.wheel import WheelRecipe, elastic_wheel

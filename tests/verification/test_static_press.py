@@ -11,17 +11,17 @@ import pytest
 from scipy.optimize import brentq
 from scipy.special import ellipe, ellipk
 
-from contactstudy.contact.interpolation import SplineLine
-from contactstudy.contact.points import ContactPoints, contact_points
 from contactstudy.contact.press import (
     PressCurve,
     contact_ellipse,
     press_curve,
     tangent_stiffness,
 )
+from contactstudy.geometry.interpolation import SplineLine
+from contactstudy.geometry.points import ContactPoints, contact_points
 from contactstudy.profiles import rail_profile, wheel_profile
-from contactstudy.solids.graded import graded_lines
-from contactstudy.solids.halfspace import half_space_patch
+from contactstudy.verification.cases.graded import graded_lines
+from contactstudy.verification.cases.halfspace import half_space_patch
 
 LOADS = np.array([50e3, 60e3, 80e3, 100e3])
 MARGIN = 2  # surface lines beyond the contact points, for the spline

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from contactstudy.verification import below, subsurface
+from contactstudy.verification.cases import below, subsurface
+from contactstudy.verification.cases.strip import Strip, flamant
 from contactstudy.verification.check import describe
-from contactstudy.verification.strip import Strip, flamant
 
 
 def judged(case):

@@ -7,8 +7,8 @@ from functools import cache
 import numpy as np
 import pytest
 
-from contactstudy.dynamics import average_acceleration
-from contactstudy.energy import energy_balance
+from contactstudy.dynamics.energy import energy_balance
+from contactstudy.dynamics.stepper import average_acceleration
 from contactstudy.irregularity import SmoothRail, paper_spectrum, sample_profile
 from contactstudy.solids.cell import condense
 from contactstudy.solids.recipe import CellRecipe

@@ -8,7 +8,7 @@ import xarray as xr
 
 from contactstudy.contact.laws import LinearSpring
 from contactstudy.contact.press import tangent_stiffness
-from contactstudy.dynamics import generalised_alpha
+from contactstudy.dynamics.stepper import generalised_alpha
 from contactstudy.exceptions import InputError
 from contactstudy.irregularity import HarmonicProfile, SmoothRail
 from contactstudy.solids.cell import RailCell, condense

@@ -7,9 +7,15 @@ import numpy as np
 import pytest
 import scipy.sparse as sp
 
-from contactstudy.banded import LinearSystem
 from contactstudy.contact.laws import HertzSpring, LinearSpring, RigidContact
-from contactstudy.dynamics import State, average_acceleration, generalised_alpha, march, newmark
+from contactstudy.dynamics.banded import LinearSystem
+from contactstudy.dynamics.stepper import (
+    State,
+    average_acceleration,
+    generalised_alpha,
+    march,
+    newmark,
+)
 from contactstudy.irregularity import HarmonicProfile
 from contactstudy.solvers.journey import Journey
 from contactstudy.solvers.point import point_contact

@@ -9,9 +9,9 @@ import pytest
 import scipy.linalg
 import scipy.sparse as sp
 
-from contactstudy.banded import LinearSystem
-from contactstudy.dynamics import State, average_acceleration, march
-from contactstudy.energy import energy_balance
+from contactstudy.dynamics.banded import LinearSystem
+from contactstudy.dynamics.energy import energy_balance
+from contactstudy.dynamics.stepper import State, average_acceleration, march
 from contactstudy.exceptions import InputError
 from contactstudy.irregularity import HarmonicProfile, SmoothRail
 from contactstudy.solids.cell import RailCell, condense

@@ -8,12 +8,12 @@ import pytest
 import skfem
 from skfem.helpers import dot, grad
 
-from contactstudy.banded import Factor
-from contactstudy.contact.pose import Pose
+from contactstudy.dynamics.banded import Factor
+from contactstudy.geometry.placement import Geometry, wheel_points
+from contactstudy.geometry.pose import Pose
 from contactstudy.solids.cell import condense, section_of
 from contactstudy.solids.recipe import CellRecipe
 from contactstudy.solids.wheel import WheelRecipe, elastic_wheel
-from contactstudy.solvers.geometry import Geometry, wheel_points
 from contactstudy.solvers.journey import Journey
 from contactstudy.solvers.surface import surface_contact
 from contactstudy.track.model import DiscreteSupports, Track, WinklerFoundation

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from contactstudy.contact.subsurface import stress_maxima
 from contactstudy.figures import drawings
 from contactstudy.figures.animation import frames_of, write_animations
 from contactstudy.figures.style import drawing
+from contactstudy.halfspace.subsurface import stress_maxima
 from contactstudy.report.content import content
 from contactstudy.solvers.patch_fields import instant_pressure
 

@@ -1,0 +1,1 @@
+"""Linear systems in time: matrices, integrators, the stepper, the static start, energy."""

@@ -1,0 +1,1 @@
+"""Where two bodies stand and meet: poses, first touch, contact points, candidate facets."""

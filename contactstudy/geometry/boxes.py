@@ -1,0 +1,101 @@
+"""Boxes that enclose a surface piece by piece, for the search of what comes near it."""
+
+import numpy as np
+import trimesh
+
+from contactstudy.arrays import Array
+from contactstudy.exceptions import InputError
+from contactstudy.profiles.curve import ProfileCurve
+
+
+def strip_boxes(mesh: trimesh.Trimesh, y: Array, padding: float, depth: float = 0.0) -> Array:
+    """Boxes around the strips of a running surface between neighbouring lines y.
+
+    A box over the whole crown would be flat and let in every facet of a cylindrical tread;
+    strips follow the curvature.
+
+    Parameters
+    ----------
+    mesh : trimesh.Trimesh
+        Running surface with vertices on the lines.
+    y : ndarray (ny,)
+        Lines in m.
+    padding : float
+        Enlargement on all sides in m.
+    depth : float
+        Further enlargement downwards in m, for facets that already lie below the surface.
+
+    Returns
+    -------
+    ndarray (ny-1, 2, 3)
+        Lower and upper corners.
+    """
+    v = np.asarray(mesh.vertices)
+    boxes = np.empty((len(y) - 1, 2, 3))
+    for k in range(len(y) - 1):
+        strip = v[(v[:, 1] >= y[k] - 1e-9) & (v[:, 1] <= y[k + 1] + 1e-9)]
+        boxes[k] = strip.min(axis=0) - padding, strip.max(axis=0) + padding
+    boxes[:, 0, 2] -= depth
+    return boxes
+
+
+def facet_boxes(
+    mesh: trimesh.Trimesh, size: float, padding: float = 0.0, along: float = np.inf
+) -> Array:
+    """Boxes around groups of neighbouring facets of any triangulated surface.
+
+    Facets are grouped by the cell of a lattice in which their centre lies, and a box encloses
+    its facets whole; so the boxes together cover the surface however it is triangulated.
+
+    Parameters
+    ----------
+    mesh : trimesh.Trimesh
+        Any surface; rail heads, scans, closed bodies.
+    size : float
+        Size of the cells across (y and z) in m.
+    padding : float
+        Enlargement on all sides in m.
+    along : float
+        Size of the cells along x in m; none when not given, as suits a rail, whose boxes may be
+        as long as it is.
+
+    Returns
+    -------
+    ndarray (m, 2, 3)
+        Lower and upper corners.
+
+    Raises
+    ------
+    InputError
+        If the surface has no facets or a size is not positive.
+    """
+    if len(mesh.faces) == 0 or not size > 0 or not along > 0:
+        raise InputError(
+            f"boxes around facets: {len(mesh.faces)} facets in cells of {size} m by {along} m; "
+            "allowed: one facet or more, sizes above 0 m"
+        )
+    triangles = np.asarray(mesh.triangles, dtype=float)
+    low, high = triangles.min(axis=1), triangles.max(axis=1)
+    centre = triangles.mean(axis=1) - low.min(axis=0)
+    cells = np.floor(centre / np.array([along, size, size])).astype(np.int64)
+    _, group = np.unique(cells, axis=0, return_inverse=True)
+    order = np.argsort(group.ravel(), kind="stable")
+    begins = np.flatnonzero(np.diff(group.ravel()[order], prepend=-1))
+    return np.stack(
+        [
+            np.minimum.reduceat(low[order], begins) - padding,
+            np.maximum.reduceat(high[order], begins) + padding,
+        ],
+        axis=1,
+    )
+
+
+def largest_sagitta(curve: ProfileCurve, s: Array) -> float:
+    """Largest distance of a profile from the chords between arc lengths s (n,), in m."""
+    inner = np.asarray(s)[:-1, None] + np.diff(s)[:, None] * np.linspace(0.0, 1.0, 9)
+    p = curve.point(inner)
+    chord = p[:, -1:] - p[:, :1]
+    off = p - p[:, :1]
+    cross = chord[..., 0] * off[..., 1] - chord[..., 1] * off[..., 0]
+    # between the nine places it can be larger by (1/16)^2 of the whole
+    return float(np.abs(cross / np.linalg.norm(chord, axis=-1)).max()) * 1.01

@@ -1,0 +1,1 @@
+"""Elastic half-spaces: Hertz, Love, patches of wheels on rails, stresses below a pressure."""

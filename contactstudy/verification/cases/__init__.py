@@ -1,0 +1,1 @@
+"""The named cases; ``contactstudy.verification.registry`` lists them all."""

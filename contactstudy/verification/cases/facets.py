@@ -1,0 +1,91 @@
+"""Static press with the gap between flat faces, as general finite-element programs take it.
+
+The program takes the gap between the smooth profiles and bends the rail's surface by a spline.
+Here both bodies are what their faces say: gap and displacements are linear between the nodes.
+It is the like-for-like counterpart of another program's press on the same mesh.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from contactstudy.arrays import Array
+from contactstudy.contact.complementarity import press
+from contactstudy.dynamics.banded import Factor
+from contactstudy.geometry.placement import Geometry
+from contactstudy.solids.wheel import WheelFlexibility
+from contactstudy.track.solid import SolidTrack
+from contactstudy.track.unreduced import UnreducedTrack
+from contactstudy.verification.cases.flat_points import half_points, whole_points
+
+
+@dataclass(frozen=True)
+class FacetPress:
+    """One solution; forces and areas of a half model are of both halves.
+
+    Attributes
+    ----------
+    approach : float
+        Of the hub to the rail's clamped ends in m.
+    area : float
+        Area of the integration points in contact in m^2.
+    face_pressure : ndarray (mx - 1, my - 1)
+        Mean over each face of the tread in Pa.
+    lateral_force : float
+        On the wheel along the track's Y in N; 0 of a half model.
+    """
+
+    approach: float
+    area: float
+    face_pressure: Array
+    lateral_force: float = 0.0
+
+
+def facet_press(
+    track: SolidTrack | UnreducedTrack,
+    wheel: WheelFlexibility,
+    load: float,
+    penalty: float,
+    x: float,
+    order: int = 5,
+    geometry: Geometry | None = None,
+) -> FacetPress:
+    """Press the faces of a wheel on those of a rail.
+
+    Parameters
+    ----------
+    track : SolidTrack or UnreducedTrack
+        With clamped ends and without supports: the approach is measured from the ends.
+    wheel : WheelFlexibility
+    load : float
+        In N.
+    penalty : float
+        In Pa/m.
+    x : float
+        Position of the wheel on the track in m.
+    order : int
+        Gauss points along each side of a face, or of what the other body's lines cut from it.
+    geometry : Geometry, optional
+        Position of a whole wheel on a whole rail section; half sections have none.
+    """
+    patch = track.patch(x, 1.05 * float(wheel.x[-1]) + 2 * track.thickness)
+    factor = Factor(track.stiffness)
+    unit = np.zeros((factor.n, len(patch.dofs)))
+    unit[patch.dofs, np.arange(len(patch.dofs))] = 1.0
+    rail_flexibility = patch.map @ factor.solve(unit)[patch.dofs] @ patch.map.T + patch.residual
+    if geometry is None:
+        points = half_points(patch, wheel, x, order, track.recipe.profile)
+    else:
+        points = whole_points(patch, wheel, x, order, geometry)
+    M = points.on_rail @ rail_flexibility @ points.on_rail.T
+    M += points.on_wheel @ wheel.flexibility @ points.on_wheel.T
+    M = 0.5 * (M + M.T) + np.diag(1.0 / (penalty * points.area))
+    solution = press(M, points.gap, points.normal[:, 1], load)
+
+    faces = len(wheel.x) - 1, len(wheel.y) - 1
+    return FacetPress(
+        approach=solution.approach,
+        area=float(points.area[solution.active].sum()),
+        face_pressure=points.by_face(solution.forces, faces) / points.by_face(points.area, faces),
+        lateral_force=float(points.normal[:, 0] @ solution.forces),
+    )

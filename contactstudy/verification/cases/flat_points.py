@@ -1,0 +1,155 @@
+"""Integration points on the flat faces of a wheel's tread over the flat faces of a rail."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from contactstudy.arrays import Array, IntArray
+from contactstudy.geometry.interpolation import Rows, grid_rows, linear_rows
+from contactstudy.geometry.placement import Geometry
+from contactstudy.geometry.points import rolling_drop
+from contactstudy.geometry.pose import PlacedWheel
+from contactstudy.geometry.quadrature import PointLine, grid_facets
+from contactstudy.profiles.rail import rail_profile
+from contactstudy.profiles.wheel import wheel_profile
+from contactstudy.solids.wheel import WheelFlexibility
+from contactstudy.track.patch import SurfacePatch
+
+
+@dataclass(frozen=True)
+class FlatPoints:
+    """Points on all faces of the tread.
+
+    Attributes
+    ----------
+    gap : ndarray (n,)
+        Along the normal of the rail's face in m, at first touch of the smooth bodies.
+    normal : ndarray (n, 2)
+        The rail's outward normal in track (Y, Z); Y is 0 in a half model, whose halves cancel.
+    area : ndarray (n,)
+        In m^2, of both halves of a half model.
+    on_rail, on_wheel : ndarray (n, nodes)
+        Displacement along the normals at the points from those at the nodes of the patch and of
+        the tread.
+    face : ndarray of int (n,)
+        Face ``i*(my-1) + j`` of the tread that holds the point.
+    """
+
+    gap: Array
+    normal: Array
+    area: Array
+    on_rail: Array
+    on_wheel: Array
+    face: IntArray
+
+    def by_face(self, values: Array, shape: tuple[int, int]) -> Array:
+        """Sums (mx - 1, my - 1) of values at the points over each face."""
+        sums = np.bincount(self.face, values, shape[0] * shape[1])
+        return np.asarray(sums.reshape(shape), dtype=float)
+
+
+def half_points(
+    patch: SurfacePatch, wheel: WheelFlexibility, x: float, order: int, profile: str
+) -> FlatPoints:
+    """Points of a symmetric wheel centred on an upright rail at X = x [m]."""
+    along, across = gauss_line(wheel.x, order), gauss_line(wheel.y, order)
+    nx, ny = len(patch.x), len(patch.y)
+    rows_x, rows_y = linear_rows(patch.x - x, along.at), linear_rows(patch.y, across.at)
+    on_rail = grid_rows(rows_x, rows_y, ny).matrix(nx * ny)
+    on_wheel = _on_wheel(along.rows, across.rows, wheel)
+    rail, recipe = rail_profile(profile), wheel.recipe
+    height = np.asarray(wheel_profile(recipe.profile).height(wheel.y))
+    drop = rolling_drop(wheel.x, height, recipe.dimensions.radius).ravel()
+    top = np.tile(np.asarray(rail.running_surface(patch.y)), nx)
+    slope = np.asarray(rail.running_slope(across.at))
+    normal = np.tile(1.0 / np.sqrt(1.0 + slope**2), len(along.at))
+    return FlatPoints(
+        gap=(on_wheel @ drop - on_rail @ top) * normal,
+        normal=np.column_stack([0.0 * normal, normal]),
+        area=2.0 * np.outer(along.weight, across.weight).ravel() / normal,
+        on_rail=on_rail,
+        on_wheel=on_wheel,
+        face=grid_facets(along, across, len(wheel.y)).ravel(),
+    )
+
+
+def whole_points(
+    patch: SurfacePatch, wheel: WheelFlexibility, x: float, order: int, geometry: Geometry
+) -> FlatPoints:
+    """Points of a whole wheel in any position on a whole rail section at X = x [m].
+
+    The faces of the wheel are bilinear between its nodes; those of the rail are the strips along X
+    between the nodes of its section. Faces of both bodies meet at their ridges, where the pressure
+    is not smooth, so the rule is taken between the lines of both.
+    """
+    corner = geometry.rail.point(patch.arc)
+    across = gauss_line(wheel.y, order, _lines_opposite(geometry, wheel.y, patch.arc))
+    along = gauss_line(wheel.x, order)
+    on_wheel = _on_wheel(along.rows, across.rows, wheel)
+    nodes = _tread(wheel, geometry)
+    at = on_wheel @ nodes
+    by_x = _on_wheel(slopes(wheel.x, along.rows), across.rows, wheel) @ nodes
+    by_s = _on_wheel(along.rows, slopes(wheel.y, across.rows), wheel) @ nodes
+    stretch = np.linalg.norm(np.cross(by_x, by_s), axis=1)
+
+    edge = np.diff(corner, axis=0)
+    length = np.hypot(*edge.T)
+    tangent = edge / length[:, None]
+    outward = np.column_stack([-tangent[:, 1], tangent[:, 0]])
+    away = at[:, None, 1:] - corner[None, :-1]
+    share = np.einsum("nkc,kc->nk", away, tangent) / length
+    # the strip whose span holds the point, or the nearest to it beside a ridge
+    strip = (np.maximum(np.maximum(-share, share - 1.0), 0.0) * length).argmin(axis=1)
+    n = np.arange(len(at))
+    t = np.clip(share[n, strip], 0.0, 1.0)
+    lines = Rows(np.stack([strip, strip + 1], axis=1), np.stack([1.0 - t, t], axis=1))
+    slices = linear_rows(patch.x - x, at[:, 0])
+    index = slices.index[:, :, None] * len(corner) + lines.index[:, None, :]
+    weight = slices.weight[:, :, None] * lines.weight[:, None, :]
+    on_rail = Rows(index.reshape(len(at), -1), weight.reshape(len(at), -1))
+    return FlatPoints(
+        gap=np.einsum("nc,nc->n", away[n, strip], outward[strip]),
+        normal=geometry.pose.track_of_rail(outward[strip]),
+        area=np.outer(along.weight, across.weight).ravel() * stretch,
+        on_rail=on_rail.matrix(len(patch.x) * len(corner)),
+        on_wheel=on_wheel,
+        face=grid_facets(along, across, len(wheel.y)).ravel(),
+    )
+
+
+def _tread(wheel: WheelFlexibility, geometry: Geometry) -> Array:
+    """Nodes (mx*my, 3) of the tread in rail axes at first touch, in m."""
+    # planes through the axle: x = rho sin(theta), the grid's x at the radius of its middle
+    rho = geometry.radius - geometry.wheel.point(wheel.y)[:, 1]
+    x = np.outer(wheel.x / wheel.recipe.contact_radius, rho).ravel()
+    placed = PlacedWheel(geometry.wheel, geometry.radius, geometry.pose)
+    nodes, _ = placed.surface(x, np.tile(wheel.y, len(wheel.x)))
+    nodes[:, 1:] -= geometry.touch.travel * geometry.pose.vertical
+    return nodes
+
+
+def _lines_opposite(geometry: Geometry, s: Array, arc: Array) -> Array:
+    """Arc lengths on the wheel, within s, that lie opposite to the rail's lines (k,)."""
+    fine = np.linspace(s[0], s[-1], 20 * len(s))
+    feet = geometry.feet(fine)
+    inside = (arc > feet[0]) & (arc < feet[-1])
+    return np.interp(arc[inside], feet, fine)
+
+
+def gauss_line(lines: Array, order: int, cuts: Array | None = None) -> PointLine:
+    """Gauss points of every interval between grid lines, which `cuts` divide further."""
+    ends = np.union1d(lines, np.empty(0) if cuts is None else cuts)
+    node, share = np.polynomial.legendre.leggauss(order)
+    step = np.diff(ends)[:, None]
+    at = (ends[:-1, None] + 0.5 * step * (1.0 + node)).ravel()
+    rows = linear_rows(lines, at)
+    return PointLine(at, (0.5 * step * share).ravel(), rows, rows.index[:, :1])
+
+
+def slopes(lines: Array, rows: Rows) -> Rows:
+    """Derivative of what `rows` interpolate on the lines."""
+    return Rows(rows.index, np.array([-1.0, 1.0]) / np.diff(lines[rows.index], axis=1))
+
+
+def _on_wheel(along: Rows, across: Rows, wheel: WheelFlexibility) -> Array:
+    return grid_rows(along, across, len(wheel.y)).matrix(len(wheel.flexibility))

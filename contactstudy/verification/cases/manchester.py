@@ -1,0 +1,213 @@
+"""Manchester contact benchmark, case A-2.2: one wheelset, shifted and yawed, at 21 positions.
+
+P. Shackleton, S. Iwnicki, Vehicle System Dynamics 46 (2008) 129-149. Rolls and pitch rates of the
+wheelset at each position are those of the public example of the open-source program CONTACT
+(github.com/eve70a/CONTACT, examples/mbench_a22_left.inp, after which each wheel carries 10 kN
+vertically, the total of normal and friction forces).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+
+from contactstudy.geometry.pose import PlacedWheel, Pose
+from contactstudy.geometry.wheelset import Side, Wheelset
+from contactstudy.halfspace.patch import Patch
+from contactstudy.halfspace.patches import press_wheel
+from contactstudy.profiles.named import rail_curve, wheel_curve
+from contactstudy.verification.cases.friction import vertical_friction
+
+RAIL = "UIC60-Manchester"
+
+INCLINATION = math.atan(1 / 40)
+GAUGE, GAUGE_DEPTH = 1.435, 0.014
+FLANGE_BACKS, TAPE_LINE, RADIUS = 1.360, 0.070, 0.460
+LOAD, SHEAR_MODULUS, POISSON, FRICTION, SPEED = 10e3, 82e9, 0.28, 0.30, 2.0
+MODULUS = SHEAR_MODULUS / (1.0 - POISSON)
+"""E* of two equal bodies: 1/E* = 2 (1 - nu^2)/E, E = 2 G (1 + nu)."""
+ORIGIN = 7.4917e-3
+"""Y of the origin of the benchmark's rail coordinates, from the crown [m]."""
+
+# wheelset's roll [rad] and pitch rate [rad/s] at the shifts 0, 0.5, ... 10 mm; x forwards, y to
+# the right, z down
+ROLL = (
+    0.0, -2.304e-5, -5.049e-5, -8.103e-5, -1.128e-4, -1.457e-4, -1.803e-4, -2.168e-4, -2.557e-4,
+    -2.977e-4, -3.554e-4, -4.777e-4, -6.272e-4, -4.376e-3, -6.393e-3, -7.642e-3, -8.606e-3,
+    -9.408e-3, -1.010113e-2, -1.071386e-2, -1.126431e-2,
+)  # fmt: skip
+PITCH_RATE = (
+    4.3481181, 4.3474134, 4.3465752, 4.346244, 4.3459197, 4.3455627, 4.3451503, 4.3446688,
+    4.344093, 4.3433715, 4.3353637, 4.3318864, 4.3293718, 4.2748834, 4.2635629, 4.2575747,
+    4.2534857, 4.2503245, 4.2477561, 4.2455665, 4.2436375,
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class ManchesterRow:
+    """One contact patch of one wheel at one position of the wheelset.
+
+    Attributes
+    ----------
+    case : int
+        1 to 21.
+    wheel : {"left", "right"}
+    shift, yaw, roll : float
+        Of the wheelset: to the right [m], clockwise seen from above, right side down [rad].
+    patch : int
+        1 for the largest normal force.
+    y, z : float
+        Contact position in the benchmark's rail coordinates: y to the right for both rails, z
+        down, origin on top of the rail [m]. It is the centroid of the overlap weighted with the
+        square of its depth.
+    wheel_s : float
+        Centre of pressure on the wheel: arc length from the tape circle to the field side [m].
+    x : float
+        Centre of pressure along the track, ahead of the axle's middle plane at the tape circle [m].
+    angle : float
+        Contact angle at the contact position [rad].
+    normal_force, vertical_force : float
+        Normal force, and its vertical part without friction [N].
+    approach : float
+        Largest overlap of the undeformed bodies along the normal [m].
+    peak_pressure : float
+        [Pa].
+    area : float
+        [m^2].
+    along, across : float
+        Semi-axes of the ellipse of Hertz with the same second moments [m].
+    """
+
+    case: int
+    wheel: Side
+    shift: float
+    yaw: float
+    roll: float
+    patch: int
+    y: float
+    z: float
+    wheel_s: float
+    x: float
+    angle: float
+    normal_force: float
+    vertical_force: float
+    approach: float
+    peak_pressure: float
+    area: float
+    along: float
+    across: float
+
+
+@lru_cache(maxsize=1)
+def benchmark_wheelset() -> Wheelset:
+    """The benchmark's wheelset on its track."""
+    return Wheelset(
+        wheel_curve("S1002"), rail_curve(RAIL), RADIUS, INCLINATION, GAUGE, GAUGE_DEPTH,
+        FLANGE_BACKS, TAPE_LINE,
+    )  # fmt: skip
+
+
+def benchmark_pose(case: int, wheel: Side) -> Pose:
+    """Position of one wheel on its rail.
+
+    Parameters
+    ----------
+    case : int
+        1 to 21.
+    wheel : {"left", "right"}
+
+    Returns
+    -------
+    Pose
+        In this rail's axes, Y to the field side.
+    """
+    shift, yaw = 0.5e-3 * (case - 1), 1.2e-3 * (case - 1)
+    return benchmark_wheelset().pose(wheel, shift, yaw, ROLL[case - 1])
+
+
+def benchmark_patches(
+    case: int, wheel: Side, friction: float = FRICTION, side: float = 0.2e-3
+) -> tuple[Patch, ...]:
+    """Contact patches of one wheel at one position.
+
+    Parameters
+    ----------
+    case, wheel
+        As in `benchmark_pose`.
+    friction : float
+        Coefficient of friction; it enters the vertical balance only.
+    side : float
+        Side of the cells [m].
+    """
+    pose, rail = benchmark_pose(case, wheel), rail_curve(RAIL)
+    placed = PlacedWheel(wheel_curve("S1002"), RADIUS, pose)
+    load = LOAD
+    # sum of normal and friction forces: a few steps of a fixed point, the share of friction
+    # hardly depends on the load
+    for _ in range(8):
+        press = press_wheel(placed, rail, load, MODULUS, side=side)
+        lift = [
+            vertical_friction(p, placed, SPEED, PITCH_RATE[case - 1], friction, SHEAR_MODULUS)
+            for p in press.patches
+        ]
+        total = sum(p.vertical_force for p in press.patches) + sum(lift)
+        if abs(total - LOAD) < 1e-4 * LOAD:
+            break
+        load *= LOAD / total
+    return press.patches
+
+
+def manchester_rows(
+    cases: tuple[int, ...] = tuple(range(1, 22)),
+    wheels: tuple[Side, ...] = ("left", "right"),
+    friction: float = FRICTION,
+    side: float = 0.2e-3,
+) -> list[ManchesterRow]:
+    """All contact patches of both wheels at the benchmark's positions.
+
+    Parameters
+    ----------
+    cases : tuple of int
+        Positions, 1 to 21: shift 0 to 10 mm by 0.5 mm, yaw 0 to 24 mrad by 1.2 mrad.
+    wheels : tuple of {"left", "right"}
+    friction : float
+        Coefficient of friction in the vertical balance; 0 for normal forces alone.
+    side : float
+        Side of the cells [m]; 0.2 mm are CONTACT's, whose contact area counts whole cells.
+
+    Returns
+    -------
+    list of ManchesterRow
+        By wheel, position and falling normal force.
+    """
+    rows = []
+    for wheel in wheels:
+        sign = 1.0 if wheel == "right" else -1.0
+        # the highest point of the inclined crown, above its own top
+        top = (1.0 / math.cos(INCLINATION) - 1.0) * float(rail_curve(RAIL).curvature(0.0)) ** -1
+        for case in cases:
+            for number, p in enumerate(benchmark_patches(case, wheel, friction, side), start=1):
+                rows.append(
+                    ManchesterRow(
+                        case=case,
+                        wheel=wheel,
+                        shift=0.5e-3 * (case - 1),
+                        yaw=1.2e-3 * (case - 1),
+                        roll=ROLL[case - 1],
+                        patch=number,
+                        y=sign * (p.reference.y - ORIGIN),
+                        z=top - p.reference.z,
+                        wheel_s=p.wheel_s,
+                        x=p.x,
+                        angle=p.reference.angle,
+                        normal_force=p.normal_force,
+                        vertical_force=p.vertical_force,
+                        approach=p.approach,
+                        peak_pressure=p.peak_pressure,
+                        area=p.area,
+                        along=p.along,
+                        across=p.across,
+                    )
+                )
+    return rows

@@ -1,0 +1,257 @@
+"""Synthetic scans of S1002 and 60E1: the fitted shapes and their contact against the exact ones."""
+
+from __future__ import annotations
+
+import math
+import tempfile
+from pathlib import Path
+
+import numpy as np
+import trimesh
+
+from contactstudy.arrays import Array
+from contactstudy.geometry.facets import rail_surface, wheel_surface
+from contactstudy.geometry.pose import PlacedWheel, Pose
+from contactstudy.geometry.smooth_touch import smooth_touch
+from contactstudy.halfspace.hertz import contact_modulus
+from contactstudy.halfspace.patch import WheelPress
+from contactstudy.halfspace.patches import press_wheel
+from contactstudy.profiles.curve import ProfileCurve
+from contactstudy.profiles.named import rail_curve, wheel_curve
+from contactstudy.scans import SurfaceScan, meeting, scanned_surface
+from contactstudy.scans.reading import Body
+from contactstudy.verification.check import CaseResult, Check, Plot, Table, curve
+
+RADIUS = 0.46
+NOISE = 2e-6
+STEP = 1e-3
+LOAD = 67.4e3
+POSES = {
+    "centred": Pose(math.atan(1 / 40)),
+    "3 mm inwards, yaw 6 mrad": Pose(math.atan(1 / 40), -3e-3, 0.0, 6e-3),
+}
+_HALF_LENGTHS = {"rail": 0.05, "wheel": 0.06}
+_EDGE = 2e-3  # from the ends of a fitted curve, left out of the comparison of shapes [m]
+_CURVATURE_OVER = 3e-3  # length over which curvatures are averaged [m]
+
+
+def synthetic_scan(
+    profile: ProfileCurve,
+    half_length: float,
+    seed: int = 1,
+    step: float = STEP,
+    noise: float = NOISE,
+    radius: float = RADIUS,
+    yaw: float = 0.0,
+    pitch: float = 0.0,
+    at: tuple[float, float, float] = (0.0, 0.0, 0.0),
+) -> trimesh.Trimesh:
+    """Irregularly triangulated surface of a profile with noise, misaligned, in any order.
+
+    Parameters
+    ----------
+    profile : ProfileCurve
+        A rail's or a wheel's.
+    half_length : float
+        Half its length along X [m].
+    seed : int
+    step : float
+        Mean distance of the vertices [m].
+    noise : float
+        Standard deviation of every coordinate [m].
+    radius : float
+        Of a wheel [m].
+    yaw, pitch : float
+        Turn about Z, and upwards of the direction X [rad].
+    at : tuple of float
+        Where the origin of the profile is in the scan [m].
+
+    Returns
+    -------
+    trimesh.Trimesh
+        In m, normals out of the body.
+    """
+    rng = np.random.default_rng(seed)
+    low, high = profile.s_range
+    x = np.linspace(-half_length, half_length, round(2 * half_length / step) + 1)
+    s = np.linspace(low, high, round((high - low) / step) + 1)
+    grid = np.stack(np.meshgrid(x, s, indexing="ij"))
+    # at most a fifth of the step, or triangles fold
+    grid = grid + 0.2 * step * rng.uniform(-1.0, 1.0, grid.shape)
+    s = np.clip(grid[1], low, high)
+    body = rail_surface(profile, grid[0], s)
+    if not profile.upper:
+        body = wheel_surface(profile, radius, grid[0], s)
+    turn = trimesh.transformations.euler_matrix(0.0, -pitch, yaw, "sxyz")
+    vertices = body.vertices @ turn[:3, :3].T + np.asarray(at)
+    vertices = vertices + noise * rng.standard_normal(vertices.shape)
+    return trimesh.Trimesh(vertices, rng.permutation(body.faces), process=False)
+
+
+def scanned_profiles() -> CaseResult:
+    """Scans of 60E1 and S1002, in STL and so in single precision, against the exact profiles."""
+    exact = {"rail": rail_curve("60E1"), "wheel": wheel_curve("S1002")}
+    scans = _scans(exact)
+    checks, figures = [], []
+    for body, scan in scans.items():
+        shape, figure = _shape(scan, exact[body])
+        checks += shape
+        figures.append(figure)
+    fit = scans["wheel"].fit
+    checks.append(Check("radius of the wheel", fit.radius, RADIUS, "m", "the scan's making", 2e-4))
+    modulus = contact_modulus(210e9, 0.3)
+    for name, pose in POSES.items():
+        found = meeting(scans["rail"], scans["wheel"], RADIUS, pose, 0.01, 0.008)
+        fitted = PlacedWheel(scans["wheel"].curve, RADIUS, pose)
+        drawn = PlacedWheel(exact["wheel"], RADIUS, pose)
+        touch = smooth_touch(drawn, exact["rail"])
+        ours = press_wheel(fitted, scans["rail"].curve, LOAD, modulus)
+        theirs = press_wheel(drawn, exact["rail"], LOAD, modulus)
+        semi_axis = theirs.patches[0].across
+        checks.append(
+            Check(
+                f"first touch on the rail, {name}",
+                1e3 * found.smooth.arc,
+                1e3 * touch.arc,
+                "mm",
+                "exact profiles; over the patch's semi-axis",
+                0.1,
+                scale=1e3 * semi_axis,
+            )
+        )
+        checks.append(
+            Check(
+                f"height of the facets' first touch, {name}",
+                1e6 * found.facets.travel,
+                1e6 * touch.travel,
+                "um",
+                "exact profiles; over the approach",
+                0.1,
+                scale=1e6 * theirs.travel,
+            )
+        )
+        checks += _pressed(name, ours, theirs)
+    rows = [
+        (
+            scan.name,
+            scan.fit.points,
+            1e6 * scan.fit.rms,
+            1e6 * scan.fit.largest,
+            1e6 * scan.fit.scatter,
+            scan.fit.knots,
+        )
+        for scan in scans.values()
+    ]
+    table = Table(
+        "Fits of the smooth surfaces to the scans.",
+        ("scan", "points", "residual rms (um)", "largest (um)", "scatter (um)", "knots"),
+        tuple(rows),
+    )
+    return CaseResult(
+        "scanned_profiles",
+        "Scanned rail head and wheel tread",
+        f"60E1 and S1002 are triangulated irregularly at {1e3 * STEP:g} mm, every coordinate gets "
+        f"{1e6 * NOISE:g} um of noise, and the surfaces, turned by a few mrad and with their "
+        "triangles in any order, are written as STL in mm. They are read again as a user's "
+        "scans would be; direction, axle and generating curves are fitted.\n\n"
+        "Fitted and exact profiles are then touched and pressed as half-spaces with "
+        f"{1e-3 * LOAD:g} kN in the same positions.",
+        tuple(checks),
+        (table,),
+        tuple(figures),
+    )
+
+
+def _scans(exact: dict[str, ProfileCurve]) -> dict[str, SurfaceScan]:
+    """Write the scans and read them again."""
+    scans = {}
+    with tempfile.TemporaryDirectory() as folder:
+        for seed, (body, profile) in enumerate(exact.items()):
+            at = (0.02, 4e-3, 0.03)
+            pitch = 1.5e-3 if body == "rail" else 0.0
+            mesh = synthetic_scan(profile, _HALF_LENGTHS[body], seed, yaw=3e-3, pitch=pitch, at=at)
+            mesh.apply_scale(1e3)
+            path = Path(folder) / f"{profile.name}.stl"
+            mesh.export(path)
+            kind: Body = "rail" if profile.upper else "wheel"
+            scans[body] = scanned_surface(path, "mm", kind, origin=at[1])
+    return scans
+
+
+def _shape(scan: SurfaceScan, exact: ProfileCurve) -> tuple[list[Check], Plot]:
+    """Residual, error of the curve and of its curvature."""
+    low, high = scan.curve.s_range
+    s = np.arange(low + _EDGE, high - _EDGE, 0.1e-3)
+    _, error = exact.project(scan.curve.point(s))
+    kind = exact.name
+    # where a wheel runs: crown to gauge corner, tread to flange root
+    inner = np.abs(s) < 0.03
+    checks = [
+        Check(f"residual of {kind}, rms", 1e6 * scan.fit.rms, 1e6 * NOISE, "um", "the noise", 0.1),
+        Check(
+            f"error of the fitted {kind}, rms",
+            1e6 * float(np.sqrt(np.mean(error[inner] ** 2))),
+            1e6 * NOISE,
+            "um",
+            "below the noise",
+            0.0,
+            "at_most",
+        ),
+        Check(
+            f"error of the fitted {kind}, largest",
+            1e6 * float(np.abs(error[inner]).max()),
+            1e6 * NOISE,
+            "um",
+            "within the noise",
+            0.0,
+            "at_most",
+        ),
+    ]
+    ours, theirs = (_mean_curvature(c, s) for c in (scan.curve, exact))
+    scale = float(np.abs(theirs[inner]).max())
+    checks.append(
+        Check(
+            f"error of the curvature of {kind} over {1e3 * _CURVATURE_OVER:g} mm, rms",
+            float(np.sqrt(np.mean((ours - theirs)[inner] ** 2))),
+            0.0,
+            "1/m",
+            f"over the largest curvature, {scale:.3g} 1/m",
+            None,
+            scale=scale,
+        )
+    )
+    figure = Plot(
+        f"Distance of the curve fitted to the scan of {kind} from the exact profile: "
+        f"{1e6 * float(np.abs(error[inner]).max()):.2g} um at most within 30 mm of its origin, "
+        f"from points with {1e6 * NOISE:g} um of noise each.",
+        "arc length (mm)",
+        "error (um)",
+        (curve(kind, 1e3 * s, 1e6 * error),),
+    )
+    return checks, figure
+
+
+def _mean_curvature(profile: ProfileCurve, s: Array) -> Array:
+    """Mean curvature over a length of the curve: what its normal turns by."""
+    half = 0.5 * _CURVATURE_OVER
+    before, after = profile.normal(s - half), profile.normal(s + half)
+    turn = before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]
+    side = -1.0 if profile.upper else 1.0
+    return np.asarray(side * np.arcsin(turn) / (2.0 * half))
+
+
+def _pressed(name: str, ours: WheelPress, theirs: WheelPress) -> list[Check]:
+    source = "exact profiles, half-spaces"
+    a, b = ours.patches[0], theirs.patches[0]
+    return [
+        Check(f"approach, {name}", 1e6 * ours.travel, 1e6 * theirs.travel, "um", source, 0.01),
+        Check(
+            f"peak pressure, {name}",
+            1e-6 * a.peak_pressure,
+            1e-6 * b.peak_pressure,
+            "MPa",
+            source,
+            0.03,
+        ),
+        Check(f"area, {name}", 1e6 * a.area, 1e6 * b.area, "mm^2", source, 0.03),
+    ]
