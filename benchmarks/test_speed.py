@@ -25,9 +25,9 @@ from contactstudy.solids.wheel import WheelFlexibility, WheelRecipe, elastic_whe
 from contactstudy.solvers.journey import Journey
 from contactstudy.solvers.point import point_contact
 from contactstudy.solvers.surface import surface_contact
-from contactstudy.study import build
+from contactstudy.study.kinds.passage import build
+from contactstudy.study.kinds.passage.placing import geometry
 from contactstudy.study.loading import load_study
-from contactstudy.study.placing import geometry
 from contactstudy.track.beam import BeamTrack
 from contactstudy.track.model import Track
 from contactstudy.track.solid import SolidTrack, solid_rail

@@ -22,7 +22,7 @@ from contactstudy.exceptions import ContactStudyError
 from contactstudy.executor import ONE_THREAD
 
 if TYPE_CHECKING:
-    from contactstudy.study.positions import PositionsStudy
+    from contactstudy.study.kinds.positions.table import PositionsStudy
 
 app = App(
     name="contactstudy",
@@ -58,8 +58,8 @@ def run(
     out
         Folder for the results; finished runs found there are not computed again.
     """
+    from contactstudy.study.kinds.positions.table import load_positions
     from contactstudy.study.loading import load_study
-    from contactstudy.study.positions import load_positions
     from contactstudy.study.runner import run_study
     from contactstudy.study.terminal import TerminalReporter, print_summary
 
@@ -80,11 +80,11 @@ def check(study: str, *, overrides: Overrides = ()) -> None:
     study
         A TOML file, or the name of a shipped study.
     """
-    from contactstudy.study.forecast import print_check
+    from contactstudy.study.kinds.passage.forecast import print_check
+    from contactstudy.study.kinds.positions.check import check_positions
+    from contactstudy.study.kinds.positions.table import load_positions
+    from contactstudy.study.kinds.positions.terminal import print_positions_check
     from contactstudy.study.loading import load_study
-    from contactstudy.study.positions import load_positions
-    from contactstudy.study.positions_check import check_positions
-    from contactstudy.study.positions_terminal import print_positions_check
     from contactstudy.study.terminal import TerminalReporter
 
     if (positions := load_positions(study, overrides)) is not None:
@@ -111,8 +111,8 @@ def reproduce(
     out
         Folder for the results.
     """
+    from contactstudy.study.kinds.positions.table import PositionsStudy, load_positions
     from contactstudy.study.loading import load_study
-    from contactstudy.study.positions import PositionsStudy, load_positions
     from contactstudy.study.runner import run_study
     from contactstudy.study.terminal import TerminalReporter, print_summary
 
@@ -200,7 +200,7 @@ def export(
     rail_length
         Length of the clamped rail, e.g. "0.6 m"; four rail cells when not given.
     """
-    from contactstudy.study.export import export_press
+    from contactstudy.study.kinds.passage.export import export_press
     from contactstudy.study.loading import load_study
 
     made = export_press(load_study(study, overrides), out, run, load, rail_length)
@@ -225,9 +225,9 @@ def studies() -> None:
 
 
 def _run_positions(study: PositionsStudy, out: Path) -> None:
-    from contactstudy.report.positions import write_positions
-    from contactstudy.study.positions_run import run_positions
-    from contactstudy.study.positions_terminal import print_positions
+    from contactstudy.study.kinds.positions.report import write_positions
+    from contactstudy.study.kinds.positions.run import run_positions
+    from contactstudy.study.kinds.positions.terminal import print_positions
     from contactstudy.study.terminal import TerminalReporter
 
     with TerminalReporter(_errors()) as reporter:

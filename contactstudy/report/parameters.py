@@ -5,8 +5,8 @@ from typing import Any
 
 from contactstudy.report.quantity import quantity
 from contactstudy.report.tables import Block, table
+from contactstudy.study.kinds.passage.schema import SECTIONS
 from contactstudy.study.results import StudyResults
-from contactstudy.study.schema import SECTIONS
 
 _TITLES = {
     "irregularity": "Irregularity",

@@ -9,15 +9,15 @@ from contactstudy.exceptions import ContactStudyError, InputError, NumericalErro
 from contactstudy.executor import Outcome, Progress, Task, run_tasks
 from contactstudy.reporter import Reporter
 from contactstudy.study import store
-from contactstudy.study.execution import (
+from contactstudy.study.files import ensure_writable
+from contactstudy.study.kinds.passage.execution import (
     condense_body,
     execute_run,
     is_condensed,
     peak_memory_mb,
 )
-from contactstudy.study.files import ensure_writable
+from contactstudy.study.kinds.passage.schema import Study
 from contactstudy.study.plan import Plan
-from contactstudy.study.schema import Study
 
 
 def compute(plan: Plan, jobs: int, reporter: Reporter) -> None:

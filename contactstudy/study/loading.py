@@ -13,16 +13,16 @@ from pydantic import ValidationError
 
 from contactstudy.exceptions import InputError
 from contactstudy.resources import resource
-from contactstudy.study import checks
+from contactstudy.study.kinds.passage import checks
+from contactstudy.study.kinds.passage.scan import PATHS as SCAN_PATHS
+from contactstudy.study.kinds.passage.schema import SECTIONS, SOLVERS, Study
+from contactstudy.study.kinds.passage.tables import WHOLE, SolidTable, TrackTable
+from contactstudy.study.kinds.passage.wheelset import PATHS as WHEELSET_PATHS
 from contactstudy.study.messages import complaint, did_you_mean, from_validation, unknown
 from contactstudy.study.overrides import override
 from contactstudy.study.paths import resolve_paths
 from contactstudy.study.results import IRREGULARITY_GROUP
-from contactstudy.study.scan import PATHS as SCAN_PATHS
-from contactstudy.study.schema import SECTIONS, SOLVERS, Study
 from contactstudy.study.section import Section
-from contactstudy.study.tables import WHOLE, SolidTable, TrackTable
-from contactstudy.study.wheelset import PATHS as WHEELSET_PATHS
 
 _TOP_LEVEL = ("title", "description", "companions", *SECTIONS, "runs", "compare")
 _RUN_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")

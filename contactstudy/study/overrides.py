@@ -6,7 +6,7 @@ import tomllib
 from collections.abc import Iterable, Mapping
 from typing import Any, Literal, get_args, get_origin
 
-from contactstudy.study.schema import SECTIONS, SOLVERS
+from contactstudy.study.kinds.passage.schema import SECTIONS, SOLVERS
 from contactstudy.study.section import Section
 
 

@@ -10,13 +10,13 @@ from typing import Any
 from contactstudy.profiles.wheel_body import file_digest
 from contactstudy.provenance import versions
 from contactstudy.study import store
+from contactstudy.study.kinds.passage.placing import contact_zone, scan_meeting
+from contactstudy.study.kinds.passage.roughness import describe
+from contactstudy.study.kinds.passage.scan import PATHS as SCAN_PATHS
+from contactstudy.study.kinds.passage.schema import Study
+from contactstudy.study.kinds.passage.wheelset import PATHS as WHEELSET_PATHS
 from contactstudy.study.loading import load_companions
-from contactstudy.study.placing import contact_zone, scan_meeting
 from contactstudy.study.results import IrregularityInfo
-from contactstudy.study.roughness import describe
-from contactstudy.study.scan import PATHS as SCAN_PATHS
-from contactstudy.study.schema import Study
-from contactstudy.study.wheelset import PATHS as WHEELSET_PATHS
 
 
 @dataclass(frozen=True)

@@ -107,8 +107,8 @@ class StudyResults:
     reference : str or None
         Name of the run the others are compared with; None when there is nothing to compare.
     metrics : mapping
-        Content of ``metrics.json`` (see `contactstudy.study.metrics`). Its ``runs.<name>.seconds``
-        and ``peak_memory_mb`` depend on the machine.
+        Content of ``metrics.json``, see `contactstudy.study.kinds.passage.metrics`. Its
+        ``runs.<name>.seconds`` and ``peak_memory_mb`` depend on the machine.
     irregularity : IrregularityInfo
         Spectra and profiles for Fig. 1.
     provenance : mapping

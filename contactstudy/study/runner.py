@@ -10,11 +10,12 @@ from contactstudy.exceptions import ContactStudyError, InputError
 from contactstudy.provenance import provenance
 from contactstudy.reporter import Quiet, Reporter
 from contactstudy.study import store
-from contactstudy.study.build import recipe
 from contactstudy.study.compute import compute
-from contactstudy.study.fields import FIELDS, write_fields
 from contactstudy.study.files import ensure_writable, writing
-from contactstudy.study.metrics import study_metrics
+from contactstudy.study.kinds.passage.build import recipe
+from contactstudy.study.kinds.passage.fields import FIELDS, write_fields
+from contactstudy.study.kinds.passage.metrics import study_metrics
+from contactstudy.study.kinds.passage.schema import Study
 from contactstudy.study.plan import Plan, plan_study
 from contactstudy.study.results import (
     METRICS_FILE,
@@ -23,7 +24,6 @@ from contactstudy.study.results import (
     read_results,
     write_results,
 )
-from contactstudy.study.schema import Study
 
 FINISHED = "finished.json"
 

@@ -17,10 +17,11 @@ import xarray as xr
 from contactstudy import cli
 from contactstudy.irregularity import paper_spectrum
 from contactstudy.solids.cache import entry_path
-from contactstudy.study import build, compute, runner, store
+from contactstudy.study import compute, runner, store
+from contactstudy.study.kinds.passage import build
+from contactstudy.study.kinds.passage.roughness import describe
 from contactstudy.study.loading import load_study
 from contactstudy.study.results import read_results
-from contactstudy.study.roughness import describe
 
 SHORT = """
 title = "A short one"

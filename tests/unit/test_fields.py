@@ -8,8 +8,8 @@ import xarray as xr
 from contactstudy.geometry.points import contact_points
 from contactstudy.profiles import rail_profile, wheel_profile
 from contactstudy.solvers.patch_fields import node_coordinates, node_fields, stress_variables
-from contactstudy.study import fields
-from contactstudy.study.fields import body_mesh, patch_mesh, write_fields
+from contactstudy.study.kinds.passage import fields
+from contactstudy.study.kinds.passage.fields import body_mesh, patch_mesh, write_fields
 from contactstudy.study.results import StudyResults
 
 A, B, P0 = 6e-3, 5e-3, 1e9

@@ -3,8 +3,8 @@
 import pytest
 
 from contactstudy.solids.cell import condense
-from contactstudy.study import build
-from contactstudy.study.forecast import solid_dofs
+from contactstudy.study.kinds.passage import build
+from contactstudy.study.kinds.passage.forecast import solid_dofs
 from contactstudy.study.loading import load_study
 from contactstudy.track.solid import SolidTrack
 

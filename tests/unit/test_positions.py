@@ -13,10 +13,10 @@ from contactstudy import cli
 from contactstudy.exceptions import InputError, NumericalError
 from contactstudy.halfspace.hertz import contact_modulus, hertz_contact
 from contactstudy.profiles.named import wheel_curve
-from contactstudy.study import positions_run
-from contactstudy.study.positions import Series, load_positions
-from contactstudy.study.positions_check import check_positions
-from contactstudy.study.positions_run import run_positions
+from contactstudy.study.kinds.positions import run as positions_run
+from contactstudy.study.kinds.positions.check import check_positions
+from contactstudy.study.kinds.positions.run import run_positions
+from contactstudy.study.kinds.positions.table import Series, load_positions
 from contactstudy.units import UnitError
 
 HERTZ = """

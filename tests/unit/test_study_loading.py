@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 from contactstudy.exceptions import InputError
+from contactstudy.study.kinds.positions.table import load_positions
 from contactstudy.study.loading import (
     find_study,
     load_companions,
@@ -13,7 +14,6 @@ from contactstudy.study.loading import (
     parse_study,
     shipped_studies,
 )
-from contactstudy.study.positions import load_positions
 
 
 def problems_of(data: dict) -> tuple[str, ...]:

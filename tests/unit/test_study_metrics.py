@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from contactstudy.study.metrics import level_differences, study_metrics
+from contactstudy.study.kinds.passage.metrics import level_differences, study_metrics
 
 SPEED = 50.0
 STATIC = 60e3

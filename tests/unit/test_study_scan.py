@@ -9,9 +9,9 @@ import trimesh
 
 from contactstudy.exceptions import InputError
 from contactstudy.profiles.named import rail_curve, wheel_curve
-from contactstudy.study import build
+from contactstudy.study.kinds.passage import build
+from contactstudy.study.kinds.passage.placing import geometry
 from contactstudy.study.loading import load_study, parse_study
-from contactstudy.study.placing import geometry
 from contactstudy.study.plan import plan_study
 from contactstudy.verification.cases.scans import synthetic_scan
 

@@ -7,7 +7,7 @@ import pytest
 
 from contactstudy.exceptions import InputError
 from contactstudy.profiles.wheel_body import wheel_sections
-from contactstudy.study import build
+from contactstudy.study.kinds.passage import build
 from contactstudy.study.loading import load_study
 from contactstudy.study.plan import plan_study
 

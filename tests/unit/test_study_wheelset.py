@@ -9,9 +9,9 @@ import pytest
 from contactstudy.exceptions import InputError
 from contactstudy.geometry.placed import placed_points
 from contactstudy.solids.cell import section_of
-from contactstudy.study import build
+from contactstudy.study.kinds.passage import build
+from contactstudy.study.kinds.passage.placing import contact_zone, geometry
 from contactstudy.study.loading import load_study
-from contactstudy.study.placing import contact_zone, geometry
 
 WHOLE = ["solid.section=whole"]
 

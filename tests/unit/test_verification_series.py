@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from contactstudy.study.tables import JourneyTable
+from contactstudy.study.kinds.passage.tables import JourneyTable
 from contactstudy.verification.cases.refinements import short_study, with_time_step
 from contactstudy.verification.cases.series import Series, common, differences, series
 from contactstudy.verification.cases.series_report import (

@@ -13,11 +13,11 @@ from contactstudy.profiles.rail import rail_profile
 from contactstudy.solids.cache import cached
 from contactstudy.solids.wheel import WheelFlexibility, elastic_wheel
 from contactstudy.solvers.surface import geometry_press
-from contactstudy.study import build
+from contactstudy.study.kinds.passage import build
+from contactstudy.study.kinds.passage.placing import geometry
+from contactstudy.study.kinds.passage.schema import Study
+from contactstudy.study.kinds.passage.vehicles import vehicle
 from contactstudy.study.loading import load_study
-from contactstudy.study.placing import geometry
-from contactstudy.study.schema import Study
-from contactstudy.study.vehicles import vehicle
 from contactstudy.track.model import Track
 from contactstudy.track.solid import solid_rail
 from contactstudy.track.unreduced import UnreducedTrack

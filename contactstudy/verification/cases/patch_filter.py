@@ -10,9 +10,9 @@ from contactstudy.contact.press import penalty_compliance
 from contactstudy.halfspace.hertz import contact_modulus, hertz_contact
 from contactstudy.halfspace.love import influence_matrix
 from contactstudy.solvers.at_rest import bodies_at_rest
-from contactstudy.study import build
-from contactstudy.study.runs import SurfaceRun
-from contactstudy.study.schema import Study
+from contactstudy.study.kinds.passage import build
+from contactstudy.study.kinds.passage.runs import SurfaceRun
+from contactstudy.study.kinds.passage.schema import Study
 from contactstudy.verification.cases.filter_of_patch import (
     ellipse_filter,
     load_weights,

@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import cache
 
-from contactstudy.study.execution import execute_run
-from contactstudy.study.runs import SurfaceRun
-from contactstudy.study.schema import Study
-from contactstudy.study.tables import JourneyTable, SolidTable
+from contactstudy.study.kinds.passage.execution import execute_run
+from contactstudy.study.kinds.passage.runs import SurfaceRun
+from contactstudy.study.kinds.passage.schema import Study
+from contactstudy.study.kinds.passage.tables import JourneyTable, SolidTable
 from contactstudy.verification.cases.series import Series, series
 
 MESHES = (0.004, 0.003, 0.0025, 0.002, 0.1 / 60)

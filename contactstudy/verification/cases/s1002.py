@@ -11,10 +11,10 @@ from contactstudy.geometry.pose import PlacedWheel
 from contactstudy.halfspace.hertz import contact_modulus
 from contactstudy.halfspace.patches import WheelPress, press_wheel
 from contactstudy.solvers.surface import geometry_press
-from contactstudy.study import build
+from contactstudy.study.kinds.passage import build
+from contactstudy.study.kinds.passage.placing import geometry
+from contactstudy.study.kinds.passage.schema import Study
 from contactstudy.study.loading import load_study
-from contactstudy.study.placing import geometry
-from contactstudy.study.schema import Study
 from contactstudy.verification.check import CaseResult, Check, Table
 
 LOADS = np.array([0.25, 0.5, 0.75, 1.0]) * 67.4e3

@@ -12,8 +12,8 @@ from contactstudy.arrays import Array
 from contactstudy.compare import norms as errors
 from contactstudy.compare.convergence import observed_order
 from contactstudy.exceptions import NumericalError
-from contactstudy.study.execution import execute_run
-from contactstudy.study.schema import Study
+from contactstudy.study.kinds.passage.execution import execute_run
+from contactstudy.study.kinds.passage.schema import Study
 
 BAND = 500.0
 """Hz. Table 1's roughness ends at 265 Hz at 300 km/h; what the contact force has above comes from

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from contactstudy.study.metrics import study_metrics
+from contactstudy.study.kinds.passage.metrics import study_metrics
 from contactstudy.study.results import IrregularityInfo, Level, Spectrum, StudyResults
 
 SPEED, DT, STATIC = 300 / 3.6, 1e-4, 67.4e3

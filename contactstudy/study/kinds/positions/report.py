@@ -15,7 +15,7 @@ from contactstudy.report.quantity import fixed, quantity
 from contactstudy.report.tables import Block, table, text
 from contactstudy.report.typesetting import typeset
 from contactstudy.study.files import writing
-from contactstudy.study.positions_terminal import COLUMNS
+from contactstudy.study.kinds.positions.terminal import COLUMNS
 from contactstudy.verification.check import Curve, Plot, curve
 
 _DRAWN = ("y", "approach", "peak_pressure", "area")
@@ -41,7 +41,7 @@ def write_positions(data: xr.Dataset, out_dir: Path) -> Path:
     Parameters
     ----------
     data : xarray.Dataset
-        Of `contactstudy.study.positions_run.run_positions`.
+        Of `contactstudy.study.kinds.positions.run.run_positions`.
     out_dir : Path
     """
     figures = {f"positions_{name}": _plot(data, name) for name in _DRAWN}

@@ -10,14 +10,14 @@ from rich.console import Console
 from rich.table import Table
 
 from contactstudy.exceptions import InputError
-from contactstudy.study import build
-from contactstudy.study.execution import is_condensed
+from contactstudy.study.kinds.passage import build
+from contactstudy.study.kinds.passage.execution import is_condensed
+from contactstudy.study.kinds.passage.placing import scan_meeting
+from contactstudy.study.kinds.passage.roughness import describe
+from contactstudy.study.kinds.passage.runs import PointRun
+from contactstudy.study.kinds.passage.schema import Study
+from contactstudy.study.kinds.passage.vehicles import vehicle
 from contactstudy.study.loading import load_companions
-from contactstudy.study.placing import scan_meeting
-from contactstudy.study.roughness import describe
-from contactstudy.study.runs import PointRun
-from contactstudy.study.schema import Study
-from contactstudy.study.vehicles import vehicle
 from contactstudy.track.beam import BeamTrack
 from contactstudy.track.model import DiscreteSupports, Slab, Track
 

@@ -18,8 +18,8 @@ from contactstudy.provenance import provenance, versions
 from contactstudy.reporter import Quiet, Reporter
 from contactstudy.study import store
 from contactstudy.study.files import ensure_writable, writing
-from contactstudy.study.positions import PositionsStudy
-from contactstudy.study.positions_check import check_positions, pressings, roll_of
+from contactstudy.study.kinds.positions.check import check_positions, pressings, roll_of
+from contactstudy.study.kinds.positions.table import PositionsStudy
 from contactstudy.study.results import RESULT_FILE
 
 CSV_FILE = "patches.csv"

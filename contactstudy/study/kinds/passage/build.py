@@ -18,10 +18,10 @@ from contactstudy.solids.wheel_modes import ModesRecipe, WheelModes, wheel_modes
 from contactstudy.solids.wheel_recipe import FAR_STEP, FAR_STEP_OF_MODES
 from contactstudy.solvers.journey import Journey
 from contactstudy.solvers.surface import PRESS_LOADS, geometry_press
-from contactstudy.study.placing import contact_zone, geometry
-from contactstudy.study.runs import PointRun, RunTable
-from contactstudy.study.schema import Study
-from contactstudy.study.vehicles import vehicle
+from contactstudy.study.kinds.passage.placing import contact_zone, geometry
+from contactstudy.study.kinds.passage.runs import PointRun, RunTable
+from contactstudy.study.kinds.passage.schema import Study
+from contactstudy.study.kinds.passage.vehicles import vehicle
 from contactstudy.track.model import (
     Ballast,
     DiscreteSupports,

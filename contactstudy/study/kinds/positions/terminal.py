@@ -9,7 +9,7 @@ from rich.box import SIMPLE
 from rich.console import Console
 from rich.table import Table
 
-from contactstudy.study.positions import PositionsStudy
+from contactstudy.study.kinds.positions.table import PositionsStudy
 
 #: Variable -> heading, scale and decimals of what is shown.
 COLUMNS = {

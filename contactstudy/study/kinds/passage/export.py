@@ -16,13 +16,13 @@ from contactstudy.halfspace.hertz import contact_modulus, hertz_contact
 from contactstudy.profiles.rail import rail_profile
 from contactstudy.solids.recipe import CellRecipe
 from contactstudy.solids.wheel_recipe import WheelRecipe
-from contactstudy.study import build
 from contactstudy.study.files import writing
+from contactstudy.study.kinds.passage import build
+from contactstudy.study.kinds.passage.placing import geometry
+from contactstudy.study.kinds.passage.runs import SurfaceRun
+from contactstudy.study.kinds.passage.schema import Study
+from contactstudy.study.kinds.passage.vehicles import vehicle
 from contactstudy.study.messages import complaint, did_you_mean
-from contactstudy.study.placing import geometry
-from contactstudy.study.runs import SurfaceRun
-from contactstudy.study.schema import Study
-from contactstudy.study.vehicles import vehicle
 from contactstudy.units import UnitError, to_si
 from contactstudy.validation import raise_if
 

@@ -18,12 +18,12 @@ from contactstudy.halfspace.hertz import contact_modulus
 from contactstudy.profiles.curve import ProfileCurve
 from contactstudy.profiles.named import rail_curve, wheel_curve
 from contactstudy.study import quantities as q
+from contactstudy.study.kinds.passage.wheelset import PATHS, off_track
 from contactstudy.study.loading import find_study
 from contactstudy.study.messages import complaint, from_validation, unknown
 from contactstudy.study.overrides import override
 from contactstudy.study.paths import resolve_paths
 from contactstudy.study.section import Section
-from contactstudy.study.wheelset import PATHS, off_track
 from contactstudy.units import Limits, UnitError, to_si
 
 _RANGE = re.compile(r"(.+?)\s+to\s+(.+?)\s+by\s+(.+)")

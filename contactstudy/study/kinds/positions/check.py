@@ -10,8 +10,8 @@ from contactstudy.halfspace.first_press import first_press
 from contactstudy.halfspace.patch_grid import Bodies
 from contactstudy.halfspace.patches import JOIN
 from contactstudy.reporter import Quiet, Reporter
-from contactstudy.study.positions import PositionsStudy
-from contactstudy.study.wheelset import complaint_of_position, derailed
+from contactstudy.study.kinds.passage.wheelset import complaint_of_position, derailed
+from contactstudy.study.kinds.positions.table import PositionsStudy
 from contactstudy.validation import raise_if
 
 Pressing = tuple[Side, int]

@@ -5,17 +5,17 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Any
 
-from contactstudy.study.runs import PointRun, RunTable, SurfaceRun
-from contactstudy.study.scan import ScanTable
-from contactstudy.study.section import Section
-from contactstudy.study.tables import (
+from contactstudy.study.kinds.passage.runs import PointRun, RunTable, SurfaceRun
+from contactstudy.study.kinds.passage.scan import ScanTable
+from contactstudy.study.kinds.passage.tables import (
     IrregularityTable,
     JourneyTable,
     SolidTable,
     TrackTable,
     VehicleTable,
 )
-from contactstudy.study.wheelset import WheelsetTable
+from contactstudy.study.kinds.passage.wheelset import WheelsetTable
+from contactstudy.study.section import Section
 
 SECTIONS: dict[str, type[Section]] = {
     "irregularity": IrregularityTable,

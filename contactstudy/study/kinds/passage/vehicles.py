@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from contactstudy.study.schema import Study
+from contactstudy.study.kinds.passage.schema import Study
 from contactstudy.vehicle import Vehicle, bare_wheel, wheel_column
 
 

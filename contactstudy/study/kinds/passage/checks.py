@@ -7,18 +7,18 @@ from typing import Any
 
 from contactstudy.exceptions import InputError
 from contactstudy.profiles.wheel_body import wheel_dimensions, wheel_sections
-from contactstudy.study.messages import complaint
-from contactstudy.study.runs import PointRun, RunTable
-from contactstudy.study.scan import ScanTable
-from contactstudy.study.section import Section
-from contactstudy.study.tables import (
+from contactstudy.study.kinds.passage.runs import PointRun, RunTable
+from contactstudy.study.kinds.passage.scan import ScanTable
+from contactstudy.study.kinds.passage.tables import (
     IrregularityTable,
     JourneyTable,
     SolidTable,
     TrackTable,
     VehicleTable,
 )
-from contactstudy.study.wheelset import WheelsetTable, problems_of
+from contactstudy.study.kinds.passage.wheelset import WheelsetTable, problems_of
+from contactstudy.study.messages import complaint
+from contactstudy.study.section import Section
 
 _SLACK = 1e-9  # relative, for lengths that were given in decimal
 # what the meshes of wheel and rail allow; the rail's reaches further by `placing.RAIL_MARGIN`

@@ -9,12 +9,12 @@ import xarray as xr
 
 from contactstudy.executor import Progress
 from contactstudy.solids.cache import entry_path
-from contactstudy.study import build
-from contactstudy.study.placing import geometry
-from contactstudy.study.roughness import irregularity_of
-from contactstudy.study.runs import PointRun, SurfaceRun
-from contactstudy.study.schema import Study
-from contactstudy.study.vehicles import vehicle
+from contactstudy.study.kinds.passage import build
+from contactstudy.study.kinds.passage.placing import geometry
+from contactstudy.study.kinds.passage.roughness import irregularity_of
+from contactstudy.study.kinds.passage.runs import PointRun, SurfaceRun
+from contactstudy.study.kinds.passage.schema import Study
+from contactstudy.study.kinds.passage.vehicles import vehicle
 
 
 def execute_run(study: Study, run: str, progress: Progress | None = None) -> xr.Dataset:

@@ -20,9 +20,9 @@ from contactstudy.profiles.wheel_body import wheel_dimensions
 from contactstudy.scans import Meeting
 from contactstudy.solids.section_mesh import fine_reach
 from contactstudy.solids.wheel_section_whole import fine_arcs, tread_reach
-from contactstudy.study.schema import Study
-from contactstudy.study.vehicles import vehicle
-from contactstudy.study.wheelset import complaint_of_position
+from contactstudy.study.kinds.passage.schema import Study
+from contactstudy.study.kinds.passage.vehicles import vehicle
+from contactstudy.study.kinds.passage.wheelset import complaint_of_position
 
 RAIL_MARGIN = 0.002
 """m, by which the rail's fine running surface reaches beyond the wheel's contact points."""

@@ -1,0 +1,1 @@
+"""Wheels run over a track."""

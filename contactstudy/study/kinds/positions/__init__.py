@@ -1,0 +1,1 @@
+"""A wheelset pressed on its rails at given positions."""
