@@ -1,1 +1,1 @@
-"""How far two results are from each other: norms, convergence, components along the rail."""
+"""How far two results are from each other: norms, bands, convergence, passing components."""

@@ -14,8 +14,8 @@ from contactstudy.figures import (
     section,
     stress,
 )
-from contactstudy.figures.drawing import Drawing
-from contactstudy.figures.style import drawing, save
+from contactstudy.plot.drawing import Drawing
+from contactstudy.plot.style import figure_style, save
 from contactstudy.study.results import StudyResults
 
 _FAMILIES = (
@@ -50,7 +50,7 @@ def write_figures(results: StudyResults, out_dir: Path) -> list[Path]:
     """
     folder = Path(out_dir) / "figures"
     written: list[Path] = []
-    with drawing():
+    with figure_style():
         for made in drawings(results):
             written += save(made.draw(), folder, made.name)
     for companion in results.companions:

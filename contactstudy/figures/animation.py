@@ -11,8 +11,9 @@ from matplotlib.animation import PillowWriter
 from matplotlib.figure import Figure
 
 from contactstudy.arrays import Array
-from contactstudy.figures.drawing import exact, label, position, values
-from contactstudy.figures.style import BLACK, VERMILION, drawing, new_figure
+from contactstudy.figures.signals import position, values
+from contactstudy.plot.style import BLACK, VERMILION, figure_style, new_figure
+from contactstudy.plot.text import exact, label
 from contactstudy.study.files import writing
 from contactstudy.study.results import StudyResults
 
@@ -52,7 +53,7 @@ def write_animations(results: StudyResults, out_dir: Path) -> list[Path]:
     for name, run in found.items():
         suffix = f"_{name}" if len(found) > 1 else ""
         target = Path(out_dir) / "figures" / f"patch{suffix}.gif"
-        with writing(target) as path, drawing():
+        with writing(target) as path, figure_style():
             _animate(name, run, path)
         written.append(target)
     for companion in results.companions:

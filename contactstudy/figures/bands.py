@@ -5,20 +5,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, NullFormatter, NullLocator
 
-from contactstudy.figures.drawing import (
-    Drawing,
-    compared,
-    exact,
-    fade_end,
-    has_signal,
-    label,
-    number,
-    speed,
-    styles,
-    values,
-)
-from contactstudy.figures.style import BLACK, figure_legend, new_figure
+from contactstudy.figures.signals import compared, fade_end, has_signal, speed, styles, values
 from contactstudy.irregularity.estimate import ThirdOctaves, third_octave_levels
+from contactstudy.plot.drawing import Drawing
+from contactstudy.plot.style import BLACK, figure_legend, new_figure
+from contactstudy.plot.text import exact, label, number
 from contactstudy.study.results import StudyResults
 
 HIGHEST = 2000.0  # Hz

@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 from functools import cache
 
-from contactstudy.figures.drawing import exact
 from contactstudy.halfspace.hertz import contact_modulus, hertz_contact
+from contactstudy.plot.text import exact
 from contactstudy.profiles.rail import rail_profile
 from contactstudy.study.results import StudyResults
 

@@ -4,21 +4,20 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from contactstudy.figures.drawing import (
+from contactstudy.figures.signals import (
     SIGNALS,
-    Drawing,
     Signal,
     compared,
     fade_end,
     has_signal,
-    label,
-    number,
     position,
     styles,
     values,
     wheel_note,
 )
-from contactstudy.figures.style import BLACK, SHADE, figure_legend, new_figure
+from contactstudy.plot.drawing import Drawing
+from contactstudy.plot.style import BLACK, SHADE, figure_legend, new_figure
+from contactstudy.plot.text import label, number
 from contactstudy.study.results import StudyResults
 
 ZOOM_LENGTH = 1.8  # m, three bays of the usual 0.6 m

@@ -6,8 +6,10 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter
 from numpy.typing import ArrayLike
 
-from contactstudy.figures.drawing import Drawing, capital, exact, number, position
-from contactstudy.figures.style import BLACK, BLUE, GREEN, SHADE, VERMILION, new_figure
+from contactstudy.figures.signals import position
+from contactstudy.plot.drawing import Drawing
+from contactstudy.plot.style import BLACK, BLUE, GREEN, SHADE, VERMILION, new_figure
+from contactstudy.plot.text import capital, exact, number
 from contactstudy.study.results import IrregularityInfo, Level, Spectrum, StudyResults
 
 

@@ -3,16 +3,6 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from contactstudy.figures.drawing import (
-    Drawing,
-    exact,
-    label,
-    number,
-    position,
-    styles,
-    values,
-    wheel_note,
-)
 from contactstudy.figures.passing_components import (
     ORDERS,
     Passing,
@@ -20,7 +10,10 @@ from contactstudy.figures.passing_components import (
     component,
     spacing,
 )
-from contactstudy.figures.style import BLACK, GREY, figure_legend, new_figure
+from contactstudy.figures.signals import position, styles, values, wheel_note
+from contactstudy.plot.drawing import Drawing
+from contactstudy.plot.style import BLACK, GREY, figure_legend, new_figure
+from contactstudy.plot.text import exact, label, number
 from contactstudy.study.results import StudyResults
 
 BAYS_SHOWN = 3

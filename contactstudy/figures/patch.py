@@ -11,16 +11,11 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Ellipse
 
 from contactstudy.arrays import Array
-from contactstudy.figures.drawing import (
-    Drawing,
-    exact,
-    label,
-    number,
-    position,
-    values,
-)
 from contactstudy.figures.hertz_ellipse import HertzPatch, hertz_patch
-from contactstudy.figures.style import BLACK, VERMILION, new_figure
+from contactstudy.figures.signals import position, values
+from contactstudy.plot.drawing import Drawing
+from contactstudy.plot.style import BLACK, VERMILION, new_figure
+from contactstudy.plot.text import exact, label, number
 from contactstudy.study.results import StudyResults
 
 

@@ -2,17 +2,10 @@
 
 from matplotlib.figure import Figure
 
-from contactstudy.figures.drawing import (
-    Drawing,
-    fade_end,
-    has_signal,
-    label,
-    number,
-    position,
-    styles,
-    values,
-)
-from contactstudy.figures.style import SHADE, new_figure
+from contactstudy.figures.signals import fade_end, has_signal, position, styles, values
+from contactstudy.plot.drawing import Drawing
+from contactstudy.plot.style import SHADE, new_figure
+from contactstudy.plot.text import label, number
 from contactstudy.study.results import StudyResults
 
 

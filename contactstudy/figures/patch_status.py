@@ -10,9 +10,10 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch as Swatch
 
 from contactstudy.arrays import Array
-from contactstudy.figures.drawing import Drawing, exact, label, number
 from contactstudy.figures.patch import Patch, patch_of
-from contactstudy.figures.style import BLACK, BLUE, SHADE, SKY, new_figure
+from contactstudy.plot.drawing import Drawing
+from contactstudy.plot.style import BLACK, BLUE, SHADE, SKY, new_figure
+from contactstudy.plot.text import exact, label, number
 from contactstudy.study.results import StudyResults
 
 _GAPS = (5.0, 10.0, 20.0, 50.0)  # µm

@@ -5,9 +5,10 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from contactstudy.arrays import Array
-from contactstudy.figures.drawing import Drawing, label, number
 from contactstudy.figures.hertz_ellipse import hertz_patch
-from contactstudy.figures.style import BLACK, VERMILION, new_figure
+from contactstudy.plot.drawing import Drawing
+from contactstudy.plot.style import BLACK, VERMILION, new_figure
+from contactstudy.plot.text import label, number
 from contactstudy.study.results import StudyResults
 
 

@@ -9,8 +9,10 @@ from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 
 from contactstudy.arrays import Array
-from contactstudy.figures.drawing import Drawing, exact, label, number, position, values
-from contactstudy.figures.style import BLACK, GREY, new_figure
+from contactstudy.figures.signals import position, values
+from contactstudy.plot.drawing import Drawing
+from contactstudy.plot.style import BLACK, GREY, new_figure
+from contactstudy.plot.text import exact, label, number
 from contactstudy.study.results import StudyResults
 
 # Displacements are drawn so that the largest is this part of the rail's height.

@@ -11,11 +11,12 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 
 from contactstudy.arrays import Array
-from contactstudy.figures.drawing import Drawing, exact, label, number
 from contactstudy.figures.patch import Patch, patch_of
-from contactstudy.figures.style import BLACK, GREY, VERMILION, new_figure
 from contactstudy.halfspace.pressure_field import SurfacePressure
 from contactstudy.halfspace.subsurface import SHALLOWEST, half_space_stress
+from contactstudy.plot.drawing import Drawing
+from contactstudy.plot.style import BLACK, GREY, VERMILION, new_figure
+from contactstudy.plot.text import exact, label, number
 from contactstudy.solids.stress import maximum_shear, von_mises
 from contactstudy.solvers.patch_fields import instant_pressure
 from contactstudy.study.results import StudyResults

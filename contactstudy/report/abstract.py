@@ -4,18 +4,10 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from contactstudy.figures.drawing import (
-    capital,
-    exact,
-    fade_end,
-    label,
-    number,
-    position,
-    speed,
-    values,
-)
 from contactstudy.figures.irregularity import comparisons
 from contactstudy.figures.passing_components import all_passing
+from contactstudy.figures.signals import fade_end, position, speed, values
+from contactstudy.plot.text import capital, exact, label, number
 from contactstudy.report.metrics import between, of_run
 from contactstudy.report.quantity import grouped, percent
 from contactstudy.report.tables import describe

@@ -5,8 +5,8 @@ from typing import Any
 
 import contactstudy
 from contactstudy.figures import Drawing, drawings
-from contactstudy.figures.drawing import label
 from contactstudy.figures.passing_components import is_smooth
+from contactstudy.plot.text import label
 from contactstudy.report.abstract import GRADES, abstract
 from contactstudy.report.parameters import parameter_tables
 from contactstudy.report.quantity import quantity

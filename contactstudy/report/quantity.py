@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from contactstudy.figures.drawing import exact, number
+from contactstudy.plot.text import exact, number
 
 # Unit -> whether its leading symbol takes a prefix, and which.
 _LARGE = ((1e9, "G"), (1e6, "M"), (1e3, "k"))

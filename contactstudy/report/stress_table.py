@@ -3,7 +3,8 @@
 import numpy as np
 import xarray as xr
 
-from contactstudy.figures.drawing import exact, label, number, position, values
+from contactstudy.figures.signals import position, values
+from contactstudy.plot.text import exact, label, number
 from contactstudy.report.tables import Block, table
 from contactstudy.study.results import StudyResults
 

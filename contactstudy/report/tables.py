@@ -4,8 +4,9 @@ import re
 from collections.abc import Mapping
 from typing import Any
 
-from contactstudy.figures.drawing import SIGNALS, Signal, label
 from contactstudy.figures.passing_components import all_passing, component
+from contactstudy.figures.signals import SIGNALS, Signal
+from contactstudy.plot.text import label
 from contactstudy.report.metrics import between, of_run
 from contactstudy.report.quantity import fixed, grouped, percent, quantity, rounded
 from contactstudy.study.results import StudyResults

@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from contactstudy.figures.drawing import exact
-from contactstudy.figures.style import drawing, save
-from contactstudy.figures.verification import draw
+from contactstudy.plot.draw import draw
+from contactstudy.plot.style import figure_style, save
+from contactstudy.plot.text import exact
 from contactstudy.report.quantity import percent, pretty_unit, rounded
 from contactstudy.report.tables import Block, table, text
 from contactstudy.report.typesetting import typeset
@@ -33,7 +33,7 @@ def write_verification(outcomes: Sequence[Outcome], about: dict[str, Any], out_d
     """
     with tempfile.TemporaryDirectory() as folder, writing(out_dir / PDF_FILE) as path:
         root = Path(folder)
-        with drawing():
+        with figure_style():
             for outcome in outcomes:
                 for k, plot in enumerate(outcome.result.figures if outcome.result else ()):
                     name = _figure(outcome, k)

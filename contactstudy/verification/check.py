@@ -1,7 +1,4 @@
-"""What a verification case hands back: checks, tables and curves, as plain data.
-
-Nothing here draws: `contactstudy.figures.verification` does, from the curves below.
-"""
+"""What a verification case hands back: checks, tables and curves, as plain data."""
 
 from __future__ import annotations
 
@@ -10,8 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-import numpy as np
-import numpy.typing as npt
+from contactstudy.plot.curves import Plot
 
 Cell = str | int | float | None
 
@@ -98,51 +94,6 @@ class Table:
 
 
 @dataclass(frozen=True)
-class Curve:
-    """One labelled line or set of points.
-
-    Attributes
-    ----------
-    label : str
-    x, y : tuple of float
-        Equally long; nan leaves a gap.
-    style : {"line", "points", "both", "reference"}
-        "reference" is the black line that the others are compared with.
-    """
-
-    label: str
-    x: tuple[float, ...]
-    y: tuple[float, ...]
-    style: Literal["line", "points", "both", "reference"] = "line"
-
-    def __post_init__(self) -> None:
-        if len(self.x) != len(self.y):
-            raise ValueError(f"{self.label}: {len(self.x)} abscissae, {len(self.y)} ordinates")
-
-
-@dataclass(frozen=True)
-class Plot:
-    """One pair of axes with curves.
-
-    Attributes
-    ----------
-    caption : str
-        What is drawn, and in numbers what is seen.
-    x_label, y_label : str
-        With units.
-    curves : tuple of Curve
-    x_scale, y_scale : {"linear", "log"}
-    """
-
-    caption: str
-    x_label: str
-    y_label: str
-    curves: tuple[Curve, ...]
-    x_scale: Literal["linear", "log"] = "linear"
-    y_scale: Literal["linear", "log"] = "linear"
-
-
-@dataclass(frozen=True)
 class CaseResult:
     """What one named case found.
 
@@ -169,20 +120,6 @@ class CaseResult:
     def failed(self) -> tuple[Check, ...]:
         """Checks that leave their band."""
         return tuple(check for check in self.checks if check.passed is False)
-
-
-def curve(
-    label: str,
-    x: npt.ArrayLike,
-    y: npt.ArrayLike,
-    style: Literal["line", "points", "both", "reference"] = "line",
-) -> Curve:
-    """`Curve` from arrays (n,)."""
-    return Curve(label, _floats(x), _floats(y), style)
-
-
-def _floats(values: npt.ArrayLike) -> tuple[float, ...]:
-    return tuple(np.asarray(values, dtype=float).ravel().tolist())
 
 
 def describe(checks: Sequence[Check]) -> str:

@@ -24,6 +24,7 @@ ORDER = (
     ("solvers",),
     ("export",),
     ("compare",),
+    ("plot",),
     ("study",),
     ("verification",),
     ("figures",),

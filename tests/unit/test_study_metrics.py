@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from contactstudy.study.kinds.passage.metrics import level_differences, study_metrics
+from contactstudy.compare.bands import level_differences
+from contactstudy.study.kinds.passage.metrics import study_metrics
 
 SPEED = 50.0
 STATIC = 60e3

@@ -9,10 +9,11 @@ import pytest
 
 from contactstudy import cli
 from contactstudy.exceptions import InputError, NumericalError
+from contactstudy.plot.curves import Curve, Plot, curve
 from contactstudy.report.verification import write_verification
 from contactstudy.verification import registry, runner
 from contactstudy.verification.cases.order import fitted_order
-from contactstudy.verification.check import CaseResult, Check, Curve, Plot, Table, curve, describe
+from contactstudy.verification.check import CaseResult, Check, Table, describe
 from contactstudy.verification.outcome import from_data, judged, to_data
 from contactstudy.verification.registry import Case, select
 

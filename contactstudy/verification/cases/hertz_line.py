@@ -10,11 +10,12 @@ from contactstudy.contact.complementarity import press
 from contactstudy.geometry.interpolation import SplineLine
 from contactstudy.geometry.quadrature import point_line
 from contactstudy.halfspace.hertz import contact_modulus, line_contact
+from contactstudy.plot.curves import Plot, curve
 from contactstudy.verification.cases.graded import graded_lines
 from contactstudy.verification.cases.hertz import APPROACH_BAND, BAND, HERTZ, PENALTY
 from contactstudy.verification.cases.order import fitted_order
 from contactstudy.verification.cases.strip import Strip
-from contactstudy.verification.check import CaseResult, Check, Plot, Table, curve
+from contactstudy.verification.check import CaseResult, Check, Table
 
 RADIUS = 0.43
 LOADS = (2e6, 6e6, 20e6)

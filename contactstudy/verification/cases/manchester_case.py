@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from contactstudy.geometry.wheelset import Side
+from contactstudy.plot.curves import Plot, curve
 from contactstudy.verification.cases.manchester import ManchesterRow, manchester_rows
-from contactstudy.verification.check import CaseResult, Check, Plot, Table, curve
+from contactstudy.verification.check import CaseResult, Check, Table
 
 SOURCE = "CONTACT 25.2, published reference output"
 # case: approach [m], peak pressure [Pa], area [m^2], |y| on the rail [m], left wheel

@@ -9,6 +9,7 @@ from contactstudy.contact.complementarity import press
 from contactstudy.contact.press import penalty_compliance
 from contactstudy.halfspace.hertz import contact_modulus, hertz_contact
 from contactstudy.halfspace.love import influence_matrix
+from contactstudy.plot.curves import Plot, curve
 from contactstudy.solvers.at_rest import bodies_at_rest
 from contactstudy.study.kinds.passage import build
 from contactstudy.study.kinds.passage.runs import SurfaceRun
@@ -19,7 +20,7 @@ from contactstudy.verification.cases.filter_of_patch import (
     pressed_filter,
     small_amplitude_filter,
 )
-from contactstudy.verification.check import CaseResult, Check, Plot, Table, curve
+from contactstudy.verification.check import CaseResult, Check, Table
 
 LOAD = 80e3
 """N"""

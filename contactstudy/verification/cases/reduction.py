@@ -9,6 +9,7 @@ import numpy as np
 from contactstudy.arrays import Array
 from contactstudy.irregularity.estimate import ThirdOctaves, third_octave_levels
 from contactstudy.irregularity.limit import iso_3095_profile
+from contactstudy.plot.curves import Plot, curve
 from contactstudy.solids.cell import condense
 from contactstudy.solids.recipe import CellRecipe
 from contactstudy.solids.wheel import WheelRecipe, elastic_wheel
@@ -18,7 +19,7 @@ from contactstudy.track.model import DiscreteSupports, Support, Track
 from contactstudy.track.solid import SolidTrack, solid_rail
 from contactstudy.track.unreduced import UnreducedTrack
 from contactstudy.vehicle import wheel_column
-from contactstudy.verification.check import CaseResult, Check, Plot, Table, curve
+from contactstudy.verification.check import CaseResult, Check, Table
 
 SPEED = 300 / 3.6
 SIZE = 0.004

@@ -16,11 +16,12 @@ from contactstudy.geometry.smooth_touch import smooth_touch
 from contactstudy.halfspace.hertz import contact_modulus
 from contactstudy.halfspace.patch import WheelPress
 from contactstudy.halfspace.patches import press_wheel
+from contactstudy.plot.curves import Plot, curve
 from contactstudy.profiles.curve import ProfileCurve
 from contactstudy.profiles.named import rail_curve, wheel_curve
 from contactstudy.scans import SurfaceScan, meeting, scanned_surface
 from contactstudy.scans.reading import Body
-from contactstudy.verification.check import CaseResult, Check, Plot, Table, curve
+from contactstudy.verification.check import CaseResult, Check, Table
 
 RADIUS = 0.46
 NOISE = 2e-6

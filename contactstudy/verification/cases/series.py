@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from contactstudy.arrays import Array
-from contactstudy.compare import norms as errors
+from contactstudy.compare import norms
 from contactstudy.compare.convergence import observed_order
 from contactstudy.exceptions import NumericalError
 from contactstudy.study.kinds.passage.execution import execute_run
@@ -108,10 +108,10 @@ def differences(run: xr.Dataset, reference: xr.Dataset) -> tuple[float, ...]:
     p, q = a.peak_pressure.values, b.peak_pressure.values
     time = b.time.values
     return (
-        errors.relative_l2(force, other, x),
-        errors.relative_l2_dynamic(force, other, x, static, static),
+        norms.relative_l2(force, other, x),
+        norms.relative_l2_dynamic(force, other, x, static, static),
         _below(force - other, time) / _below(other - static, time),
-        errors.relative_l2(p, q, x),
+        norms.relative_l2(p, q, x),
         abs(float(p.mean() / q.mean()) - 1.0),
     )
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from contactstudy.halfspace.hertz import contact_modulus, hertz_contact
+from contactstudy.plot.curves import Plot, curve
 from contactstudy.verification.cases.series import BAND, QUANTITIES, Series, common
-from contactstudy.verification.check import Cell, Check, Plot, Table, curve
+from contactstudy.verification.check import Cell, Check, Table
 
 
 def tables(name: str, scale: float, series: Series) -> tuple[Table, ...]:

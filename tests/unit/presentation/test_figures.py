@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from contactstudy.figures import drawings, write_figures
-from contactstudy.figures.drawing import exact, number
 from contactstudy.figures.irregularity import mean_level_difference
 from contactstudy.figures.passing_components import all_passing
 from contactstudy.figures.patch import patch_of
-from contactstudy.figures.style import drawing, run_styles, save
+from contactstudy.plot.style import figure_style, run_styles, save
+from contactstudy.plot.text import exact, number
 from contactstudy.study.results import Spectrum
 
 LABELS = {
@@ -32,7 +32,7 @@ def by_name(results):
 
 def test_every_figure_of_a_full_study_is_there_with_its_units(by_name):
     assert set(by_name) == set(LABELS)
-    with drawing():
+    with figure_style():
         for name, wanted in LABELS.items():
             figure = by_name[name].draw()
             shown = [t for axes in figure.axes for t in (axes.get_xlabel(), axes.get_ylabel())]
@@ -41,7 +41,7 @@ def test_every_figure_of_a_full_study_is_there_with_its_units(by_name):
 
 
 def test_spectrum_has_logarithmic_axes_and_a_second_axis_of_wavelengths(by_name):
-    with drawing():
+    with figure_style():
         figure = by_name["irregularity_spectrum"].draw()
         figure.draw_without_rendering()
     axes = figure.axes[0]
@@ -82,7 +82,7 @@ def test_second_writing_gives_equal_bytes(by_name, tmp_path):
     for name in ("irregularity_spectrum", "patch_pressure", "patch_history"):
         written = []
         for folder in ("a", "b"):
-            with drawing():
+            with figure_style():
                 written.append(save(by_name[name].draw(), tmp_path / folder, name))
         assert [p.name for p in written[0]] == [f"{name}.pdf", f"{name}.png"]
         for one, other in zip(*written, strict=True):

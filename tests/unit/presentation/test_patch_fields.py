@@ -8,8 +8,8 @@ from PIL import Image
 
 from contactstudy.figures import drawings
 from contactstudy.figures.animation import frames_of, write_animations
-from contactstudy.figures.style import drawing
 from contactstudy.halfspace.subsurface import stress_maxima
+from contactstudy.plot.style import figure_style
 from contactstudy.report.content import content
 from contactstudy.solvers.patch_fields import instant_pressure
 
@@ -46,7 +46,7 @@ def labels(figure):
 def test_figures_of_the_patch(full):
     made = {d.name: d for d in drawings(full)}
     shear = full.runs["surface"]["maximum_shear"].values
-    with drawing():
+    with figure_style():
         below, status = made["stress_below"].draw(), made["patch_status"].draw()
     assert {"Depth (mm)", "Von Mises (MPa)", "Maximum shear (MPa)", "Plane y = 0 mm"} <= set(
         labels(below)

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from contactstudy.figures import drawings
-from contactstudy.figures.style import drawing, new_figure, save
+from contactstudy.plot.style import figure_style, new_figure, save
 from contactstudy.report import write_report
 from contactstudy.report.abstract import GRADES, abstract, grade, papers_scheme
 from contactstudy.report.content import content
@@ -34,7 +34,7 @@ def made(tmp_path_factory):
 
 def place_figures(study, out):
     """One small figure under the name of each: drawing them all is tested elsewhere."""
-    with drawing():
+    with figure_style():
         axes = (figure := new_figure(1.0)).add_subplot()
         axes.plot([0, 1], [0, 1])
         pdf = save(figure, out, "small")[0].read_bytes()

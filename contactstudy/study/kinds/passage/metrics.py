@@ -26,11 +26,10 @@ import numpy as np
 import xarray as xr
 
 from contactstudy.arrays import Array
-from contactstudy.compare import norms as errors
-from contactstudy.irregularity.estimate import third_octave_levels
+from contactstudy.compare import norms
+from contactstudy.compare.bands import level_differences
 
 SIGNALS = ("contact_force", "wheel_displacement", "wheel_acceleration", "rail_displacement")
-_SHORTEST_RECORD = 8  # samples, for a spectral estimate
 
 
 def study_metrics(
@@ -93,47 +92,25 @@ def compare_runs(run: xr.Dataset, reference: xr.Dataset, start: float) -> dict[s
 def compare_signals(run: xr.Dataset, reference: xr.Dataset, name: str, start: float) -> Any:
     """Norms of one signal; see the module's text for the keys."""
     x_run, x_reference = _position(run), _position(reference)
-    x = errors.common_positions(x_run, x_reference, start)
+    x = norms.common_positions(x_run, x_reference, start)
     a_all, b_all = run[name].values, reference[name].values
-    a, b = errors.at_positions(a_all, x_run, x), errors.at_positions(b_all, x_reference, x)
+    a, b = norms.at_positions(a_all, x_run, x), norms.at_positions(b_all, x_reference, x)
     a_static, b_static = a_all[..., 0], b_all[..., 0]
-    dynamic = errors.dynamic_part(a, a_static), errors.dynamic_part(b, b_static)
+    dynamic = norms.dynamic_part(a, a_static), norms.dynamic_part(b, b_static)
     return {
-        "relative_l2": _number(errors.relative_l2(a, b, x)),
-        "relative_l2_dynamic": _number(errors.relative_l2(*dynamic, x)),
-        "linf": _number(errors.linf(a, b)),
-        "rms": _number(errors.rms(a, b, x)),
-        "correlation": _number(errors.correlation(a, b, x)),
+        "relative_l2": _number(norms.relative_l2(a, b, x)),
+        "relative_l2_dynamic": _number(norms.relative_l2(*dynamic, x)),
+        "linf": _number(norms.linf(a, b)),
+        "rms": _number(norms.rms(a, b, x)),
+        "correlation": _number(norms.correlation(a, b, x)),
         "sprague_geers": _sprague_geers(a, b, x),
         "sprague_geers_dynamic": _sprague_geers(*dynamic, x),
         "third_octave": level_differences(*dynamic, x, _speed(reference)),
     }
 
 
-def level_differences(a: Array, b: Array, x: Array, speed: float) -> dict[str, float]:
-    """Third-octave levels of `a` less those of `b`: nominal centre in Hz -> dB.
-
-    Bands as in `contactstudy.irregularity.third_octave_levels`, of the whole record in time;
-    signals of several wheels (nw, n) are averaged in mean square. Bands in which one of the two
-    is empty are left out.
-    """
-    spacing = float(x[-1] - x[0]) / (len(x) - 1) / speed
-    if len(x) < _SHORTEST_RECORD:
-        return {}
-    pair = []
-    for signal in (np.atleast_2d(a), np.atleast_2d(b)):
-        levels = [third_octave_levels(one, spacing, reference=1.0) for one in signal]
-        pair.append(np.mean([level.mean_square for level in levels], axis=0))
-    nominal = levels[0].nominal
-    return {
-        f"{centre:g}": float(10.0 * np.log10(one / other))
-        for centre, one, other in zip(nominal, *pair, strict=True)
-        if one > 0.0 and other > 0.0
-    }
-
-
 def _sprague_geers(a: Any, b: Any, x: Array) -> dict[str, float | None]:
-    found = errors.sprague_geers(a, b, x)
+    found = norms.sprague_geers(a, b, x)
     return {
         "M": _number(found.magnitude),
         "P": _number(found.phase),

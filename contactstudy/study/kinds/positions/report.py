@@ -8,15 +8,15 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from contactstudy.figures.drawing import label, number
-from contactstudy.figures.style import drawing, save
-from contactstudy.figures.verification import draw
+from contactstudy.plot.curves import Curve, Plot, curve
+from contactstudy.plot.draw import draw
+from contactstudy.plot.style import figure_style, save
+from contactstudy.plot.text import label, number
 from contactstudy.report.quantity import fixed, quantity
 from contactstudy.report.tables import Block, table, text
 from contactstudy.report.typesetting import typeset
 from contactstudy.study.files import writing
 from contactstudy.study.kinds.positions.terminal import COLUMNS
-from contactstudy.verification.check import Curve, Plot, curve
 
 _DRAWN = ("y", "approach", "peak_pressure", "area")
 _LABELS = {
@@ -48,7 +48,7 @@ def write_positions(data: xr.Dataset, out_dir: Path) -> Path:
     with tempfile.TemporaryDirectory() as folder, writing(out_dir / "report.pdf") as path:
         root = Path(folder)
         (root / "figures").mkdir()
-        with drawing():
+        with figure_style():
             for name, plot in figures.items():
                 pdf, _ = save(draw(plot), out_dir / "figures", name)
                 (root / "figures" / f"{name}.pdf").write_bytes(pdf.read_bytes())

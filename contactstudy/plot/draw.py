@@ -1,19 +1,18 @@
-"""Figures of the verification: the curves of a case, in the one style."""
+"""Draw curves that are given as data, in the one style."""
 
 from matplotlib.figure import Figure
 
-from contactstudy.figures.style import (
+from contactstudy.plot.curves import Plot
+from contactstudy.plot.style import (
     REFERENCE_STYLE,
-    drawing,
     figure_legend,
     new_figure,
     run_styles,
 )
-from contactstudy.verification.check import Plot
 
 
 def draw(plot: Plot) -> Figure:
-    """One pair of axes; to be called within `contactstudy.figures.style.drawing`."""
+    """One pair of axes; to be called within `contactstudy.plot.style.figure_style`."""
     figure = new_figure(3.1, 5.4)
     axes = figure.add_subplot()
     labels = [c.label for c in plot.curves if c.style != "reference"]
@@ -32,6 +31,3 @@ def draw(plot: Plot) -> Figure:
     axes.set_ylabel(plot.y_label)
     figure_legend(figure, axes)
     return figure
-
-
-__all__ = ["draw", "drawing"]

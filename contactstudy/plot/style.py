@@ -125,7 +125,7 @@ def run_styles(names: list[str], reference: str | None) -> dict[str, LineStyle]:
 
 
 @contextmanager
-def drawing() -> Iterator[None]:
+def figure_style() -> Iterator[None]:
     """Context in which figures are made and saved: the style, and no user's matplotlibrc."""
     with matplotlib.rc_context():
         matplotlib.rcdefaults()

@@ -1,35 +1,14 @@
-"""What a figure is before it is drawn, and how signals are taken from the labelled results."""
+"""How signals are taken from the labelled results, and how they are shown."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 import xarray as xr
-from matplotlib.figure import Figure
 
 from contactstudy.arrays import Array
-from contactstudy.compare import norms as errors
-from contactstudy.figures.style import LineStyle, run_styles
+from contactstudy.compare import norms
+from contactstudy.plot.style import LineStyle, run_styles
 from contactstudy.study.results import StudyResults
-
-
-@dataclass(frozen=True)
-class Drawing:
-    """A figure that these results can fill.
-
-    Attributes
-    ----------
-    name : str
-        File name without ending.
-    caption : str
-        Plain text that says what is drawn and, in numbers taken from the data, what is seen.
-    draw : callable
-        Makes the figure; to be called within `contactstudy.figures.style.drawing`.
-    """
-
-    name: str
-    caption: str
-    draw: Callable[[], Figure]
 
 
 @dataclass(frozen=True)
@@ -63,11 +42,6 @@ SIGNALS = (
     Signal("wheel_acceleration", "Wheel acceleration", "Acceleration", "m/s²", 1.0),
     Signal("rail_displacement", "Rail displacement at the wheel", "Displacement", "mm", 1e3),
 )
-
-
-def label(name: str) -> str:
-    """Name of a run as it is printed."""
-    return name.replace("_", " ")
 
 
 def styles(results: StudyResults) -> dict[str, LineStyle]:
@@ -112,11 +86,11 @@ def compared(
     """
     reference, run = results.runs[str(results.reference)], results.runs[name]
     x_reference, x_run = position(reference), position(run)
-    x = errors.common_positions(x_run, x_reference, start)
+    x = norms.common_positions(x_run, x_reference, start)
     return (
         x,
-        errors.at_positions(values(reference, signal), x_reference, x),
-        errors.at_positions(values(run, signal), x_run, x),
+        norms.at_positions(values(reference, signal), x_reference, x),
+        norms.at_positions(values(run, signal), x_run, x),
     )
 
 
@@ -130,47 +104,3 @@ def wheel_note(results: StudyResults) -> str:
     """Return a sentence that names the wheel when there are several, else nothing."""
     several = any("wheel" in run["position"].dims for run in results.runs.values())
     return " Of several wheels the leading one is shown." if several else ""
-
-
-def capital(text: str) -> str:
-    """`text` with its first letter as a capital."""
-    return text[:1].upper() + text[1:]
-
-
-def number(value: float, digits: int = 3) -> str:
-    """`value` to `digits` significant digits in plain text with a typographic minus.
-
-    Powers of ten are written out only where the number would have more than six digits before
-    the point or more than three zeros behind it.
-    """
-    if not np.isfinite(value):
-        return "not finite"
-    mantissa, exponent = f"{value:.{digits - 1}e}".split("e")
-    power = int(exponent)
-    if value == 0.0:
-        return "0"
-    if -4 <= power < 6:
-        text = f"{float(f'{value:.{digits - 1}e}'):.{max(digits - 1 - power, 0)}f}"
-    else:
-        text = f"{mantissa}·10{_superscript(power)}"
-    return text.replace("-", "\N{MINUS SIGN}", 1)
-
-
-def exact(value: float, digits: int = 6) -> str:
-    """Return a given (not a computed) value in plain text, without trailing zeros."""
-    text = number(value, digits)
-    if "·" in text:
-        mantissa, power = text.split("·")
-        return f"{_trimmed(mantissa)}·{power}"
-    return _trimmed(text)
-
-
-def _trimmed(text: str) -> str:
-    return text.rstrip("0").rstrip(".") if "." in text else text
-
-
-_SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
-
-
-def _superscript(exponent: int) -> str:
-    return str(exponent).translate(_SUPERSCRIPTS)

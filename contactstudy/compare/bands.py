@@ -1,0 +1,31 @@
+"""Third-octave levels of a signal against those of another."""
+
+import numpy as np
+
+from contactstudy.arrays import Array
+from contactstudy.irregularity.estimate import third_octave_levels
+
+SHORTEST_RECORD = 8
+"""Samples that a spectral estimate needs."""
+
+
+def level_differences(a: Array, b: Array, x: Array, speed: float) -> dict[str, float]:
+    """Third-octave levels of `a` less those of `b`: nominal centre in Hz -> dB.
+
+    Bands as in `contactstudy.irregularity.third_octave_levels`, of the whole record in time;
+    signals of several wheels (nw, n) are averaged in mean square. Bands in which one of the two
+    is empty are left out.
+    """
+    spacing = float(x[-1] - x[0]) / (len(x) - 1) / speed
+    if len(x) < SHORTEST_RECORD:
+        return {}
+    pair = []
+    for signal in (np.atleast_2d(a), np.atleast_2d(b)):
+        levels = [third_octave_levels(one, spacing, reference=1.0) for one in signal]
+        pair.append(np.mean([level.mean_square for level in levels], axis=0))
+    nominal = levels[0].nominal
+    return {
+        f"{centre:g}": float(10.0 * np.log10(one / other))
+        for centre, one, other in zip(nominal, *pair, strict=True)
+        if one > 0.0 and other > 0.0
+    }

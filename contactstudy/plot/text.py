@@ -1,0 +1,52 @@
+"""Names and numbers as they stand in captions, tables and on axes: plain typographic text."""
+
+import numpy as np
+
+
+def label(name: str) -> str:
+    """Name of a run as it is printed."""
+    return name.replace("_", " ")
+
+
+def capital(text: str) -> str:
+    """`text` with its first letter as a capital."""
+    return text[:1].upper() + text[1:]
+
+
+def number(value: float, digits: int = 3) -> str:
+    """`value` to `digits` significant digits in plain text with a typographic minus.
+
+    Powers of ten are written out only where the number would have more than six digits before
+    the point or more than three zeros behind it.
+    """
+    if not np.isfinite(value):
+        return "not finite"
+    mantissa, exponent = f"{value:.{digits - 1}e}".split("e")
+    power = int(exponent)
+    if value == 0.0:
+        return "0"
+    if -4 <= power < 6:
+        text = f"{float(f'{value:.{digits - 1}e}'):.{max(digits - 1 - power, 0)}f}"
+    else:
+        text = f"{mantissa}·10{_superscript(power)}"
+    return text.replace("-", "\N{MINUS SIGN}", 1)
+
+
+def exact(value: float, digits: int = 6) -> str:
+    """Return a given (not a computed) value in plain text, without trailing zeros."""
+    text = number(value, digits)
+    if "·" in text:
+        mantissa, power = text.split("·")
+        return f"{_trimmed(mantissa)}·{power}"
+    return _trimmed(text)
+
+
+def _trimmed(text: str) -> str:
+    return text.rstrip("0").rstrip(".") if "." in text else text
+
+
+_SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+def _superscript(exponent: int) -> str:
+    return str(exponent).translate(_SUPERSCRIPTS)
