@@ -150,9 +150,10 @@ def verify(
     listing
         List the cases and run nothing.
     """
-    from contactstudy.verification.registry import select
+    from contactstudy.verification.case import select
+    from contactstudy.verification.cases import CASES
 
-    cases = select(names)
+    cases = select(CASES, names)
     if listing:
         width = max(len(case.name) for case in cases)
         for case in cases:

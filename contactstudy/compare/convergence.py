@@ -1,4 +1,4 @@
-"""Observed order of accuracy and the grid convergence index.
+"""Observed order of accuracy, with the limit known or not, and the grid convergence index.
 
 Three values ``f1, f2, f3`` of the same quantity on grids (or time steps) of size
 ``h1 < h2 < h3`` with ratios ``r21 = h2/h1`` and ``r32 = h3/h2`` give the observed order p from
@@ -72,6 +72,22 @@ def observed_order(values: Sequence[float], sizes: Sequence[float]) -> float:
     if residual(low) > 0.0 or residual(high) < 0.0:
         raise NumericalError(f"no observed order between 0 and {high:g}: {tuple(values)}")
     return float(brentq(residual, low, high, xtol=1e-12))
+
+
+def fitted_order(sizes: Sequence[float], errors: Sequence[float]) -> float:
+    """Least-squares slope of log error over log size.
+
+    Contact points enter and leave a patch one by one: the error changes its sign with the load
+    and the mesh, and three meshes alone show any order. A fit over many averages that out.
+
+    Parameters
+    ----------
+    sizes, errors : sequences (n,)
+        Mesh size (any unit) and size of the error, positive; errors of exactly zero are left out.
+    """
+    kept = [(h, e) for h, e in zip(sizes, errors, strict=True) if e > 0.0]
+    h, e = np.log(np.array(kept)).T
+    return float(np.polyfit(h, e, 1)[0])
 
 
 def grid_convergence(

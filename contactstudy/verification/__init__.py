@@ -1,1 +1,1 @@
-"""Named cases with a reference beside each computed value; ``cases`` lists them all."""
+"""The engine that runs named cases, each with a reference beside its computed values."""

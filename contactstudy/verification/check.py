@@ -100,7 +100,7 @@ class CaseResult:
     Attributes
     ----------
     name : str
-        As registered in `contactstudy.verification.registry`.
+        As listed in `contactstudy.verification.cases`.
     title : str
     method : str
         What is compared with what, and how; paragraphs are parted by an empty line.

@@ -15,8 +15,8 @@ from contactstudy.provenance import versions
 from contactstudy.reporter import Quiet, Reporter
 from contactstudy.study import store
 from contactstudy.study.files import ensure_writable, writing
+from contactstudy.verification.case import Case
 from contactstudy.verification.outcome import Outcome, from_data, judged, to_data
-from contactstudy.verification.registry import Case
 
 KEPT = "cases"
 """Folder of the output in which finished cases are kept."""

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from scipy.integrate import dblquad
 
+from contactstudy.compare.convergence import fitted_order
 from contactstudy.contact.complementarity import contact_forces
 from contactstudy.exceptions import InputError, NumericalError
 from contactstudy.halfspace.hertz import contact_modulus, hertz_contact
@@ -14,7 +15,6 @@ from contactstudy.halfspace.love import (
     influence_matrix,
     love_influence,
 )
-from contactstudy.verification.cases.order import fitted_order
 
 MODULUS = contact_modulus(210e9, 0.3)
 

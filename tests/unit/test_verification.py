@@ -8,14 +8,14 @@ import subprocess
 import pytest
 
 from contactstudy import cli
+from contactstudy.compare.convergence import fitted_order
 from contactstudy.exceptions import InputError, NumericalError
 from contactstudy.plot.curves import Curve, Plot, curve
 from contactstudy.report.verification import write_verification
-from contactstudy.verification import registry, runner
-from contactstudy.verification.cases.order import fitted_order
+from contactstudy.verification import cases, runner
+from contactstudy.verification.case import Case, select
 from contactstudy.verification.check import CaseResult, Check, Table, describe
 from contactstudy.verification.outcome import from_data, judged, to_data
-from contactstudy.verification.registry import Case, select
 
 
 def check(computed=1.004, reference=1.0, band=0.01, **more):
@@ -56,7 +56,7 @@ def registered(monkeypatch):
     """Replace the registered cases by fake ones."""
 
     def register(*made):
-        monkeypatch.setattr(registry, "CASES", tuple(made))
+        monkeypatch.setattr(cases, "CASES", tuple(made))
         CALLS.clear()
 
     return register
@@ -113,19 +113,22 @@ def test_results_survive_the_file():
 
 
 def test_every_registered_case_can_be_called():
-    names = [case.name for case in registry.CASES]
+    names = [case.name for case in cases.CASES]
     assert len(set(names)) == len(names)
-    for case in registry.CASES:
+    for case in cases.CASES:
         assert callable(case.load())
         assert all(need.split(":")[0] in ("program", "package") for need in case.needs)
 
 
 def test_unknown_cases_are_all_listed_with_those_that_are():
     with pytest.raises(InputError) as error:
-        select(("hertz_line", "hertz_lin", "moon"))
+        select(cases.CASES, ("hertz_line", "hertz_lin", "moon"))
     assert len(error.value.problems) == 2
     assert "'moon'" in str(error.value) and "ssnv104" in str(error.value)
-    assert [case.name for case in select(("ssnv104", "hertz_line"))] == ["hertz_line", "ssnv104"]
+    assert [case.name for case in select(cases.CASES, ("ssnv104", "hertz_line"))] == [
+        "hertz_line",
+        "ssnv104",
+    ]
 
 
 def test_what_is_missing_is_named():
@@ -154,10 +157,10 @@ def test_verify_writes_everything_and_keeps_what_is_finished(registered, tmp_pat
 
 def test_a_damaged_case_is_computed_again(registered, tmp_path):
     registered(FakeCase("good", ""))
-    runner.run_cases(select(), tmp_path)
+    runner.run_cases(select(cases.CASES), tmp_path)
     (kept,) = (tmp_path / "cases").glob("*.json")
     kept.write_text(kept.read_text().replace("1.004", "1.005"))
-    (outcome,) = runner.run_cases(select(), tmp_path)
+    (outcome,) = runner.run_cases(select(cases.CASES), tmp_path)
     assert CALLS == ["good", "good"] and outcome.result.checks[0].computed == 1.004
 
 
@@ -177,11 +180,11 @@ def test_an_interrupt_keeps_what_is_finished(registered, tmp_path):
 
 
 def test_cases_in_processes_of_their_own(tmp_path):
-    cases = (*select(("hertz_line",)), Case("gone", "nowhere:gone"))
-    apart = runner.run_cases(cases, tmp_path, jobs=2)
+    chosen = (*select(cases.CASES, ("hertz_line",)), Case("gone", "nowhere:gone"))
+    apart = runner.run_cases(chosen, tmp_path, jobs=2)
     assert [o.status for o in apart] == ["passed", "broke down"]
     assert "ModuleNotFoundError" in apart[1].reason
-    here = cases[0].load()()
+    here = chosen[0].load()()
     for mine, theirs in zip(here.checks, apart[0].result.checks, strict=True):
         assert mine.computed == pytest.approx(theirs.computed, rel=1e-9)
     assert len(list((tmp_path / "cases").iterdir())) == 1

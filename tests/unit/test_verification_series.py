@@ -1,14 +1,11 @@
 """Series of refinements: known orders from made-up runs, and a small real one."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 import xarray as xr
 
-from contactstudy.study.kinds.passage.tables import JourneyTable
-from contactstudy.verification.cases.refinements import short_study, with_time_step
-from contactstudy.verification.cases.series import Series, common, differences, series
+from contactstudy.verification.cases.refinements import refined
+from contactstudy.verification.cases.series import Series, common, differences
 from contactstudy.verification.cases.series_report import (
     figure,
     left_checks,
@@ -77,9 +74,8 @@ def test_report_of_a_series() -> None:
 
 
 def test_time_step_of_a_short_real_run() -> None:
-    journey = JourneyTable.model_validate({"from": 12.0, "to": 13.6, "fade_in": 0.4})
-    study = replace(short_study(mesh_size=0.005), journey=journey)
-    found = series(study, with_time_step, (4e-4, 2e-4, 1e-4), 1e-4)
+    shorter = ("journey.to=13.6 m", "journey.fade_in=0.4 m", "solid.mesh_size=5 mm")
+    found = refined("journey.time_step", (4e-4, 2e-4, 1e-4), 1e-4, shorter)
     print("against finest", found.against_finest, "orders", found.orders)
     assert np.all(found.against_finest[0, :3] > found.against_finest[1, :3])
     assert found.against_finest[1, 0] < 5e-3

@@ -2,8 +2,8 @@
 
 import pytest
 
+from contactstudy.verification.cases import CASES
 from contactstudy.verification.check import describe
-from contactstudy.verification.registry import CASES
 
 
 @pytest.mark.parametrize(

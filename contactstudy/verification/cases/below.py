@@ -10,6 +10,7 @@ from scipy.interpolate import CubicSpline
 from scipy.optimize import minimize_scalar
 
 from contactstudy.arrays import Array
+from contactstudy.compare.convergence import fitted_order
 from contactstudy.contact.complementarity import press
 from contactstudy.geometry.interpolation import Rows, grid_rows
 from contactstudy.geometry.quadrature import point_line
@@ -152,8 +153,7 @@ def _nodal(rows: Rows, forces: Array, area: Array) -> Array:
     return np.asarray(load / weight)
 
 
-def order(rows: tuple[Below, ...], reference: float) -> float:
-    """Observed order of the shear's error between the two finest meshes."""
-    coarse, fine = rows[-2], rows[-1]
-    ratio = abs(coarse.shear - reference) / abs(fine.shear - reference)
-    return float(np.log(ratio) / np.log(fine.elements / coarse.elements))
+def observed(rows: tuple[Below, ...], reference: float) -> float:
+    """Order of the shear's error between the two finest meshes."""
+    sizes = [1.0 / row.elements for row in rows[-2:]]
+    return fitted_order(sizes, [abs(row.shear - reference) for row in rows[-2:]])

@@ -25,7 +25,6 @@ METHOD = (
     "difference from the finest level and the estimate of what that one has itself: by the "
     "observed order, or, where there is none, the last step between levels."
 )
-LEFT = "difference from the finest level and that one's own error"
 
 
 def mesh() -> CaseResult:

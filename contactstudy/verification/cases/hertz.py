@@ -7,10 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import elliprd
 
+from contactstudy.compare.convergence import fitted_order
 from contactstudy.halfspace.hertz import HertzContact, contact_modulus, hertz_contact
 from contactstudy.plot.curves import Plot, curve
 from contactstudy.verification.cases.blocks import Pressed, blocks
-from contactstudy.verification.cases.order import fitted_order
 from contactstudy.verification.check import CaseResult, Check, Table
 
 RATIOS = (1.0, 1.5, 2.0, 3.0, 4.0)

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from contactstudy.compare.convergence import fitted_order
 from contactstudy.contact.complementarity import press
 from contactstudy.geometry.interpolation import SplineLine
 from contactstudy.geometry.quadrature import point_line
@@ -13,7 +14,6 @@ from contactstudy.halfspace.hertz import contact_modulus, line_contact
 from contactstudy.plot.curves import Plot, curve
 from contactstudy.verification.cases.graded import graded_lines
 from contactstudy.verification.cases.hertz import APPROACH_BAND, BAND, HERTZ, PENALTY
-from contactstudy.verification.cases.order import fitted_order
 from contactstudy.verification.cases.strip import Strip
 from contactstudy.verification.check import CaseResult, Check, Table
 

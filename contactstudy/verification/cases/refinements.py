@@ -1,15 +1,22 @@
-"""The default study on a shortened journey, refined in one thing at a time."""
+"""The shipped study on a shortened journey, refined in one key at a time."""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import cache
 
+import xarray as xr
+
 from contactstudy.study.kinds.passage.execution import execute_run
-from contactstudy.study.kinds.passage.runs import SurfaceRun
-from contactstudy.study.kinds.passage.schema import Study
-from contactstudy.study.kinds.passage.tables import JourneyTable, SolidTable
-from contactstudy.verification.cases.series import Series, series
+from contactstudy.study.loading import load_study
+from contactstudy.verification.cases.series import Series
+
+STUDY = "point_vs_surface"
+SHORT = (
+    "journey.from=12 m", "journey.to=15.6 m", "journey.fade_in=1.2 m",
+    "journey.stations=[]", "solid.pressure_at=[]",
+)  # fmt: skip
 
 MESHES = (0.004, 0.003, 0.0025, 0.002, 0.1 / 60)
 INTERIORS = (0.012, 0.009, 0.006, 0.0045)
@@ -20,75 +27,80 @@ MODES = (8, 10, 12, 14, 18, 22)
 TIME_STEPS = (2e-4, 1e-4, 5e-5, 2.5e-5, 1.25e-5)
 
 
-def short_study(**solid: object) -> Study:
-    """The default study on a shortened journey, with other values in ``[solid]``."""
-    return Study(
-        name="convergence",
-        title="Convergence",
-        journey=JourneyTable.model_validate({"from": 12.0, "to": 15.6, "fade_in": 1.2}),
-        solid=SolidTable.model_validate(solid),
-        runs={"surface": SurfaceRun()},
-    )
+def surface_run(*changes: str) -> xr.Dataset:
+    """Surface contact of the shortened study with keys set as on the command line."""
+    return execute_run(load_study(STUDY, (*SHORT, *changes)), "surface")
 
 
-def with_solid(study: Study, **values: object) -> Study:
-    """A study with other values in ``[solid]``."""
-    solid = SolidTable.model_validate(study.solid.model_dump() | values)
-    return replace(study, solid=solid)
+def refined(
+    key: str,
+    levels: Sequence[float],
+    default: float,
+    changes: Sequence[str] = (),
+    size: Callable[[float], float] = float,
+    algebraic: bool = True,
+) -> Series:
+    """Run the shortened study at several levels of one key.
 
-
-def with_time_step(study: Study, step: float) -> Study:
-    """A study with another time step in s."""
-    return replace(study, journey=study.journey.model_copy(update={"time_step": step}))
+    Parameters
+    ----------
+    key : str
+        E.g. "solid.mesh_size".
+    levels : sequence of float
+        SI values, coarsest first.
+    default : float
+        The one of them that is the default.
+    changes : sequence of str
+        Further keys, ``key=value``.
+    size : callable
+        From a level to what goes to zero.
+    algebraic : bool
+        As in `Series`.
+    """
+    runs = tuple(surface_run(*changes, f"{key}={level!r}") for level in levels)
+    sizes = tuple(size(level) for level in levels)
+    return Series(tuple(levels), sizes, list(levels).index(default), runs, algebraic)
 
 
 @cache
 def mesh_series() -> Series:
     """Element size at the running surface."""
-    return series(short_study(), lambda s, h: with_solid(s, mesh_size=h), MESHES, 0.002)
+    return refined("solid.mesh_size", MESHES, 0.002)
 
 
 @cache
 def interior_series() -> Series:
     """Largest element size of the rail's section, on a 4 mm running surface."""
-    return series(
-        short_study(mesh_size=0.004),
-        lambda s, h: with_solid(s, coarse_mesh_size=h),
-        INTERIORS,
-        0.009,
-    )
+    return refined("solid.coarse_mesh_size", INTERIORS, 0.009, ("solid.mesh_size=4 mm",))
 
 
 @cache
 def penalty_series(points: str) -> Series:
     """Penalty, at "gauss" points or "nodes"; at nodes the augmented Lagrangian comes last."""
-    study = short_study(contact_points=points)
-    plain = series(study, lambda s, e: with_solid(s, penalty=e), PENALTIES, 1e16, lambda e: 1.0 / e)
+    at = f"solid.contact_points={points}"
+    plain = refined("solid.penalty", PENALTIES, 1e16, (at,), lambda e: 1.0 / e)
     if points == "gauss":
         return plain
-    limit = with_solid(study, enforcement="augmented", penetration_tolerance=TOLERANCE)
+    limit = surface_run(
+        at, "solid.enforcement=augmented", f"solid.penetration_tolerance={TOLERANCE!r}"
+    )
     # a penalty that lets overlap no more than that
-    runs = (*plain.runs, execute_run(limit, "surface"))
     equal = 1e9 / TOLERANCE
     return replace(
-        plain, levels=(*plain.levels, equal), sizes=(*plain.sizes, 1.0 / equal), runs=runs
+        plain,
+        levels=(*plain.levels, equal),
+        sizes=(*plain.sizes, 1.0 / equal),
+        runs=(*plain.runs, limit),
     )
 
 
 @cache
 def modes_series() -> Series:
     """Generalised modes of the rail's interface planes."""
-    return series(
-        short_study(),
-        lambda s, n: with_solid(s, interface_modes=int(n)),
-        MODES,
-        14,
-        lambda n: 1.0 / n,
-        algebraic=False,
-    )
+    return refined("solid.interface_modes", MODES, 14, size=lambda n: 1.0 / n, algebraic=False)
 
 
 @cache
 def time_step_series() -> Series:
     """Time step."""
-    return series(short_study(), with_time_step, TIME_STEPS, 5e-5)
+    return refined("journey.time_step", TIME_STEPS, 5e-5)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,8 +11,6 @@ from contactstudy.arrays import Array
 from contactstudy.compare import norms
 from contactstudy.compare.convergence import observed_order
 from contactstudy.exceptions import NumericalError
-from contactstudy.study.kinds.passage.execution import execute_run
-from contactstudy.study.kinds.passage.schema import Study
 
 BAND = 500.0
 """Hz. Table 1's roughness ends at 265 Hz at 300 km/h; what the contact force has above comes from
@@ -131,33 +128,3 @@ def _below(signal: Array, time: Array) -> float:
     spectrum = np.fft.rfft(np.hanning(len(signal)) * signal)
     frequency = np.fft.rfftfreq(len(signal), time[1] - time[0])
     return float(np.linalg.norm(spectrum[frequency < BAND]))
-
-
-def series(
-    study: Study,
-    change: Callable[[Study, float], Study],
-    levels: Sequence[float],
-    default: float,
-    size: Callable[[float], float] = float,
-    algebraic: bool = True,
-) -> Series:
-    """Run a study at several levels.
-
-    Parameters
-    ----------
-    study : Study
-        With a run "surface".
-    change : callable
-        From the study and a level to the study at that level.
-    levels : sequence of float
-        Coarsest first.
-    default : float
-        The one of them that is the default.
-    size : callable
-        From a level to what goes to zero.
-    algebraic : bool
-        As in `Series`.
-    """
-    runs = tuple(execute_run(change(study, level), "surface") for level in levels)
-    sizes = tuple(size(level) for level in levels)
-    return Series(tuple(levels), sizes, list(levels).index(default), runs, algebraic)
