@@ -18,10 +18,11 @@ from scipy.linalg import cho_solve_banded, cholesky_banded
 
 from contactstudy.contact.laws import HertzSpring, LinearSpring
 from contactstudy.irregularity import paper_spectrum, sample_profile
+from contactstudy.solids.bodies import rail_body, wheel_body
 from contactstudy.solids.cache import cached
-from contactstudy.solids.cell import RailCell, condense
+from contactstudy.solids.cell import condense
 from contactstudy.solids.recipe import CellRecipe
-from contactstudy.solids.wheel import WheelFlexibility, WheelRecipe, elastic_wheel
+from contactstudy.solids.wheel import WheelRecipe
 from contactstudy.solvers.journey import Journey
 from contactstudy.solvers.point import point_contact
 from contactstudy.solvers.surface import surface_contact
@@ -44,12 +45,12 @@ def profile():
 
 @cache
 def solid_track():
-    return SolidTrack(Track(rail=solid_rail(RECIPE)), cached(condense, RailCell, RECIPE))
+    return SolidTrack(Track(rail=solid_rail(RECIPE)), cached(rail_body(RECIPE)))
 
 
 @cache
 def wheel():
-    return cached(elastic_wheel, WheelFlexibility, WheelRecipe())
+    return cached(wheel_body(WheelRecipe()))
 
 
 def baseline(matrix) -> float:

@@ -2,37 +2,37 @@
 
 from __future__ import annotations
 
+import functools
 import platform
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
 import contactstudy
 
-#: Packages that compute or write what is in the results.
-PACKAGES = (
-    "numpy",
-    "scipy",
-    "numba",
-    "trimesh",
-    "python-fcl",
-    "xarray",
-    "h5netcdf",
-    "h5py",
-    "meshio",
-    "matplotlib",
-    "typst",
-)
+#: Packages whose code decides the numbers; `WRITING` ones only keep, draw or print them.
+COMPUTING = ("numpy", "scipy", "numba", "trimesh", "python-fcl")
+WRITING = ("xarray", "h5netcdf", "h5py", "meshio", "matplotlib", "typst")
 
 
-def versions() -> dict[str, str]:
-    """Package -> version, the program and Python first; packages that are absent are left out."""
+@functools.cache
+def _versions(packages: tuple[str, ...]) -> dict[str, str]:
     found = {"contactstudy": contactstudy.__version__, "Python": platform.python_version()}
-    for package in PACKAGES:
+    for package in packages:
         try:
             found[package] = version(package)
         except PackageNotFoundError:  # cannot make a result then either
             continue
     return found
+
+
+def versions() -> dict[str, str]:
+    """Package -> version, the program and Python first; packages that are absent are left out."""
+    return dict(_versions(COMPUTING + WRITING))
+
+
+def computing_versions() -> dict[str, str]:
+    """The same of what decides the numbers."""
+    return dict(_versions(COMPUTING))
 
 
 def provenance(

@@ -12,9 +12,9 @@ from matplotlib.figure import Figure
 
 from contactstudy.arrays import Array
 from contactstudy.figures.signals import position, values
+from contactstudy.files import writing
 from contactstudy.plot.style import BLACK, VERMILION, figure_style, new_figure
 from contactstudy.plot.text import exact, label
-from contactstudy.study.files import writing
 from contactstudy.study.results import StudyResults
 
 _DPI = 100

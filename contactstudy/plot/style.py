@@ -11,6 +11,8 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
+from contactstudy.files import writing
+
 # Width of the text block of the A4 report: figures are placed unscaled, so their fonts are
 # the size given here.
 TEXT_WIDTH = 6.3  # inch
@@ -148,13 +150,14 @@ def save(figure: Figure, folder: Path, name: str) -> list[Path]:
 
     Equal figures give equal bytes: no creation date, no program version in the files.
     """
-    folder.mkdir(parents=True, exist_ok=True)
     # The layout is found once, not again for each format; it does not depend on the format.
     figure.draw_without_rendering()
     figure.set_layout_engine("none")
     pdf, png = folder / f"{name}.pdf", folder / f"{name}.png"
-    figure.savefig(pdf, metadata={"CreationDate": None, "Creator": None, "Producer": None})
-    figure.savefig(png, dpi=PNG_DPI, metadata={"Software": None})
+    with writing(pdf) as path:
+        figure.savefig(path, metadata={"CreationDate": None, "Creator": None, "Producer": None})
+    with writing(png) as path:
+        figure.savefig(path, dpi=PNG_DPI, metadata={"Software": None})
     return [pdf, png]
 
 

@@ -5,9 +5,9 @@ import tempfile
 from pathlib import Path
 
 from contactstudy.figures import drawings, write_figures
+from contactstudy.files import writing
 from contactstudy.report.content import content
 from contactstudy.report.typesetting import typeset
-from contactstudy.study.files import writing
 from contactstudy.study.results import StudyResults
 
 __all__ = ["write_report"]

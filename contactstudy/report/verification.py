@@ -6,13 +6,13 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from contactstudy.files import writing
 from contactstudy.plot.draw import draw
 from contactstudy.plot.style import figure_style, save
 from contactstudy.plot.text import exact
 from contactstudy.report.quantity import percent, pretty_unit, rounded
 from contactstudy.report.tables import Block, table, text
 from contactstudy.report.typesetting import typeset
-from contactstudy.study.files import writing
 from contactstudy.verification.check import Cell, Check, Table
 from contactstudy.verification.outcome import Outcome
 

@@ -1,30 +1,49 @@
-"""Condensed bodies on disk, under a hash of all that they are made from.
+"""Condensed bodies: made once, and then taken from the store in the user's cache folder."""
 
-An entry is written to a temporary file and renamed, carries a checksum of its arrays, and is
-rebuilt when it does not pass it.
-"""
+from __future__ import annotations
 
-import hashlib
 import os
-import tempfile
 import warnings
 from collections.abc import Callable
-from dataclasses import fields
-from functools import cache
+from dataclasses import dataclass, fields
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, Generic, TypeVar
 
 import numpy as np
 import platformdirs
 
-from contactstudy.resources import resource
+from contactstudy.exceptions import InputError
+from contactstudy.store import ARRAYS, Store, StoreWarning, store_key
 
-Body = TypeVar("Body")
-_CHECKSUM = "checksum"
+Made = TypeVar("Made")
 
 
-class CacheWarning(UserWarning):
-    """A cache entry was damaged and rebuilt, or could not be written."""
+@dataclass(frozen=True)
+class Body(Generic[Made]):
+    """A body to condense.
+
+    Attributes
+    ----------
+    name : str
+        For the user: "rail".
+    recipe : object
+        Frozen dataclass of plain values; what the body is made from.
+    build : callable
+        Makes the body from its recipe.
+    made : type
+        What `build` returns: a frozen dataclass with the field ``recipe``; all other fields are
+        arrays.
+    """
+
+    name: str
+    recipe: Any
+    build: Callable[[Any], Made]
+    made: Callable[..., Made]
+
+    @property
+    def key(self) -> str:
+        """Hash of the recipe and of the code that makes the body."""
+        return store_key(repr(self.recipe), self.build)
 
 
 def cache_directory() -> Path:
@@ -33,102 +52,57 @@ def cache_directory() -> Path:
     return Path(named) if named else Path(platformdirs.user_cache_dir("contactstudy"))
 
 
-@cache
-def _sources() -> bytes:
-    """Digest of the code and the profiles that condensed bodies depend on."""
-    package = Path(__file__).parent
-    files = sorted(package.glob("*.py")) + sorted((package.parent / "profiles").glob("*.py"))
-    files += sorted(resource("meshes").rglob("*.toml"))
-    digest = hashlib.sha256()
-    for file in files:
-        digest.update(file.name.encode() + b"\0" + file.read_bytes())
-    return digest.digest()
+def cache_store(directory: Path | None = None) -> Store:
+    """The store of condensed bodies, by default in `cache_directory`."""
+    return Store(directory or cache_directory(), ARRAYS)
 
 
-def entry_path(recipe: Any, directory: Path | None = None) -> Path:
-    """File of the body that a recipe makes."""
-    key = hashlib.sha256(repr(recipe).encode() + _sources()).hexdigest()[:32]
-    return (directory or cache_directory()) / f"{type(recipe).__name__}-{key}.npz"
+def is_cached(body: Body[Any]) -> bool:
+    """Whether a body is in the user's cache."""
+    return cache_store().has(_name(body), body.key)
 
 
-def cached(
-    build: Callable[[Any], Body],
-    body: Callable[..., Body],
-    recipe: Any,
-    directory: Path | None = None,
-) -> Body:
-    """The body that ``build(recipe)`` makes, from disk if it is there and whole.
+def cached(body: Body[Made], store: Store | None = None) -> Made:
+    """A body, from the store if it is there and whole; condensed and kept otherwise.
 
     Parameters
     ----------
-    build : callable
-        Makes the body from its recipe.
-    body : type
-        Frozen dataclass with the field ``recipe``; all other fields are arrays.
-    recipe : object
-        Frozen dataclass; equal recipes have equal ``repr``.
-    directory : Path, optional
-        Folder of the entries; by default `cache_directory`.
-
-    Returns
-    -------
-    Body
+    body : Body
+    store : Store, optional
+        By default `cache_store`.
 
     Warns
     -----
-    CacheWarning
-        If an entry is damaged (it is rebuilt), or cannot be written (the body is used all the
+    StoreWarning
+        If an entry is damaged (it is made again), or cannot be written (the body is used all the
         same and will have to be made again).
     """
-    path = entry_path(recipe, directory)
-    names = [f.name for f in fields(body) if f.name != "recipe"]  # type: ignore[arg-type]
-    if path.exists():
-        try:
-            return body(recipe=recipe, **_read(path, names))
-        except (OSError, ValueError, KeyError, EOFError, ArithmeticError) as error:
-            message = f"cache entry {path} is damaged ({error}); it is made again"
-            warnings.warn(message, CacheWarning, stacklevel=2)
-    made = build(recipe)
+    store = store or cache_store()
+    name, key = _name(body), body.key
+    kept = store.load(name, key)
+    if kept.value is not None:
+        return body.made(recipe=body.recipe, **kept.value)
+    if kept.damage:
+        warnings.warn(f"{kept.damage}; it is made again", StoreWarning, stacklevel=2)
+    made = body.build(body.recipe)
+    names = [f.name for f in fields(body.made) if f.name != "recipe"]  # type: ignore[arg-type]
     try:
-        _write(path, {name: np.asarray(getattr(made, name)) for name in names})
-    except OSError as error:
-        message = f"cache entry {path} cannot be written ({error}); the result is used uncached"
-        warnings.warn(message, CacheWarning, stacklevel=2)
+        store.save(name, key, {field: np.asarray(getattr(made, field)) for field in names})
+    except (OSError, InputError) as error:
+        message = f"cache entry {store.path(name, key)} cannot be written ({_reason(error)})"
+        warnings.warn(f"{message}; the result is used uncached", StoreWarning, stacklevel=2)
     return made
 
 
-def _digest(arrays: dict[str, np.ndarray]) -> str:
-    digest = hashlib.sha256()
-    for name in sorted(arrays):
-        array = np.ascontiguousarray(arrays[name])
-        digest.update(f"{name} {array.dtype} {array.shape} ".encode())
-        digest.update(array.tobytes())
-    return digest.hexdigest()
+def entry_path(body: Body[Any], store: Store | None = None) -> Path:
+    """File of a body in the store."""
+    return (store or cache_store()).path(_name(body), body.key)
 
 
-def _read(path: Path, names: list[str]) -> dict[str, np.ndarray]:
-    # zipfile reports a damaged archive by several exceptions of its own; all mean the same
-    try:
-        with np.load(path, allow_pickle=False) as data:
-            arrays = {name: data[name] for name in names}
-            checksum = str(data[_CHECKSUM])
-    except OSError:
-        raise
-    except Exception as error:
-        raise ValueError(f"not a readable archive: {error}") from error
-    if checksum != _digest(arrays):
-        raise ValueError("its checksum does not fit its content")
-    return arrays
+def _name(body: Body[Any]) -> str:
+    return type(body.recipe).__name__
 
 
-def _write(path: Path, arrays: dict[str, np.ndarray]) -> None:
-    path.parent.mkdir(parents=True, exist_ok=True)
-    handle, name = tempfile.mkstemp(dir=path.parent, prefix=path.stem, suffix=".tmp")
-    try:
-        with os.fdopen(handle, "wb") as file:
-            entries: dict[str, Any] = {**arrays, _CHECKSUM: np.array(_digest(arrays))}
-            np.savez(file, allow_pickle=False, **entries)
-        Path(name).replace(path)
-    except BaseException:
-        Path(name).unlink(missing_ok=True)
-        raise
+def _reason(error: Exception) -> str:
+    cause = error.__cause__ or error
+    return getattr(cause, "strerror", None) or str(cause)

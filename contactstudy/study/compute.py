@@ -3,19 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from pathlib import Path
 
 from contactstudy.exceptions import ContactStudyError, InputError, NumericalError
 from contactstudy.executor import Outcome, Progress, Task, run_tasks
+from contactstudy.files import ensure_writable, remove_unfinished
 from contactstudy.reporter import Reporter
-from contactstudy.study import store
-from contactstudy.study.files import ensure_writable
-from contactstudy.study.kinds.passage.execution import (
-    condense_body,
-    execute_run,
-    is_condensed,
-    peak_memory_mb,
-)
+from contactstudy.solids.cache import is_cached
+from contactstudy.store import Store
+from contactstudy.study.kinds.passage.build import bodies
+from contactstudy.study.kinds.passage.execution import condense_body, execute_run, peak_memory_mb
 from contactstudy.study.kinds.passage.schema import Study
 from contactstudy.study.plan import Plan
 
@@ -28,31 +24,34 @@ def compute(plan: Plan, jobs: int, reporter: Reporter) -> None:
     NumericalError or InputError
         Listing the runs that failed, when the others are finished.
     """
-    tasks, labels, bodies = [], {}, dict[str, Task]()
+    tasks, condensing, paths = [], dict[str, Task](), []
     for one in plan.all:
-        ensure_writable(one.out_dir / store.STORE)
+        ensure_writable(one.runs.folder)
         for name in one.study.runs:
-            path = store.run_path(one.out_dir, name, one.run_key(name))
-            finished, damage = store.load_run(path)
-            if damage:
-                reporter.note(f"{damage}; computed again")
-            if finished is not None:
+            key = one.run_key(name)
+            kept = one.runs.load(name, key)
+            if kept.damage:
+                reporter.note(f"{kept.damage}; computed again")
+            if kept.value is not None:
                 continue
+            after = []
+            for body in bodies(one.study, name):
+                if not is_cached(body):
+                    label = f"condensing the {body.name}"
+                    # Studies of one report share their bodies, as a rule; a run makes what is
+                    # lacking.
+                    condensing.setdefault(label, Task(label, condense_body, (body,)))
+                    after.append(label)
             label = name if one is plan else f"{one.study.name}: {name}"
-            needs = [b for b in one.study.bodies(name) if not is_condensed(one.study, b)]
-            for body in needs:
-                # Studies of one report share their bodies, as a rule; a run makes what is lacking.
-                task = Task(f"condensing the {body}", condense_body, (one.study, body))
-                bodies.setdefault(task.name, task)
-            after = tuple(f"condensing the {body}" for body in needs)
-            tasks.append(Task(label, execute, (one.study, name, path), after))
-            labels[label] = path
+            arguments = (one.study, name, one.runs, key)
+            tasks.append((one.study.runs[name], Task(label, execute, arguments, tuple(after))))
+            paths.append(one.runs.path(name, key))
     if not tasks:
         return
     # The long ones first, so that the short ones fill the gaps.
-    tasks.sort(key=lambda task: not task.arguments[0].runs[task.arguments[1]].needs_solid)
-    tasks = [*bodies.values(), *tasks]
-    for task in tasks:
+    tasks.sort(key=lambda pair: not pair[0].needs_solid)
+    everything = [*condensing.values(), *(task for _, task in tasks)]
+    for task in everything:
         reporter.begin(task.name, 0)
 
     def ended(name: str, outcome: Outcome) -> None:
@@ -60,26 +59,26 @@ def compute(plan: Plan, jobs: int, reporter: Reporter) -> None:
 
     try:
         outcomes = run_tasks(
-            tasks,
+            everything,
             jobs,
             reporter.progress,
             ended,
             lambda name, text: reporter.note(f"{name}: {text}"),
         )
     finally:
-        for path in labels.values():  # what a worker was writing when it was ended
-            for rest in path.parent.glob(f".{path.stem}-*"):
-                rest.unlink(missing_ok=True)
-    _raise_failures(outcomes, plan.out_dir)
+        for path in paths:  # what a worker was writing when it was ended
+            remove_unfinished(path.parent, path.stem)
+    _raise_failures(outcomes, plan)
 
 
-def execute(study: Study, run: str, path: Path, progress: Progress) -> None:
+def execute(study: Study, run: str, store: Store, key: str, progress: Progress) -> None:
     """Compute one run and store it; the body of a worker process."""
     data = execute_run(study, run, progress)
-    store.save_run(path, data, peak_memory_mb())
+    seconds = {k: float(data.attrs.get(f"seconds_{k}", 0.0)) for k in ("setup", "stepping")}
+    store.save(run, key, data, {"seconds": seconds, "peak_memory_mb": peak_memory_mb()})
 
 
-def _raise_failures(outcomes: Mapping[str, Outcome], out_dir: Path) -> None:
+def _raise_failures(outcomes: Mapping[str, Outcome], plan: Plan) -> None:
     failed = {name: o.error for name, o in outcomes.items() if o.error is not None}
     if not failed:
         return
@@ -89,7 +88,7 @@ def _raise_failures(outcomes: Mapping[str, Outcome], out_dir: Path) -> None:
         texts += [line if line.startswith(name) else f"run {name}: {line}" for line in lines]
     if all(isinstance(error, InputError) for error in failed.values()):
         raise InputError(texts)
-    texts.append(f"finished runs are kept in {out_dir / store.STORE}")
+    texts.append(f"finished runs are kept in {plan.runs.folder}")
     kinds: type[ContactStudyError] = ContactStudyError
     if any(isinstance(error, NumericalError) for error in failed.values()):
         kinds = NumericalError

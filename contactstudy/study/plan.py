@@ -7,9 +7,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from contactstudy.files import file_digest as digest_of
 from contactstudy.profiles.wheel_body import file_digest
 from contactstudy.provenance import versions
-from contactstudy.study import store
+from contactstudy.store import DATASET, Store, store_key
+from contactstudy.study.kinds.passage.execution import execute_run
 from contactstudy.study.kinds.passage.placing import contact_zone, scan_meeting
 from contactstudy.study.kinds.passage.roughness import describe
 from contactstudy.study.kinds.passage.scan import PATHS as SCAN_PATHS
@@ -17,6 +19,9 @@ from contactstudy.study.kinds.passage.schema import Study
 from contactstudy.study.kinds.passage.wheelset import PATHS as WHEELSET_PATHS
 from contactstudy.study.loading import load_companions
 from contactstudy.study.results import IrregularityInfo
+
+RUNS = "runs"
+"""Folder of the output in which finished runs are kept."""
 
 
 @dataclass(frozen=True)
@@ -36,6 +41,11 @@ class Plan:
         """This plan, then its companions'."""
         return (self, *(p for c in self.companions for p in c.all))
 
+    @property
+    def runs(self) -> Store:
+        """Where finished runs are kept."""
+        return Store(self.out_dir / RUNS, DATASET)
+
     def run_key(self, run: str) -> str:
         """Hash of everything that goes into one run, code included."""
         study = self.study
@@ -46,14 +56,13 @@ class Plan:
         shared["solid"] = solid if study.bodies(run) else solid["mesh_size"]
         # with modes in another run the wheel is meshed more finely round its circumference
         shared["modes"] = "wheel" in study.bodies(run) and study.has_wheel_modes
-        shared["packages"] = versions()
-        return store.digest([run, table, shared, dict(self.files), store.code_digest()])
+        return store_key([run, table, shared, dict(self.files)], execute_run)
 
     def key(self) -> str:
         """Hash of everything that goes into the results, drawing and printing included."""
         texts = [self.study.name, self.study.title, self.study.description]
-        own = [texts, self.inputs, dict(self.files), versions(), store.code_digest(True)]
-        return store.digest([own, [companion.key() for companion in self.companions]])
+        own = [texts, self.inputs, dict(self.files), versions()]
+        return store_key([own, [companion.key() for companion in self.companions]], None)
 
 
 def plan_study(study: Study, out_dir: Path) -> Plan:
@@ -102,7 +111,7 @@ def _scans(study: Study, inputs: dict[str, Any], files: dict[str, str]) -> tuple
     found = scan_meeting(study)
     for key in SCAN_PATHS:
         if name := getattr(study.scan, key):
-            files[Path(name).name] = store.file_digest(Path(name))
+            files[Path(name).name] = digest_of(Path(name))
             inputs["scan"][key] = Path(name).name
     inputs["scan"] |= study.scan.fitted()
     notes = [f"scan {scan.summary()}" for scan in study.scan.surfaces() if scan is not None]

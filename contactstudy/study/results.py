@@ -7,7 +7,7 @@ Layout of an output directory::
     figures/        *.pdf and *.png; patch.gif where frames are kept
     fields/         *.vtu and *.pvd for ParaView, where instants are kept
     report.pdf
-    runs/           the store of single runs (see `contactstudy.study.store`)
+    runs/           the store of single runs (see `contactstudy.store`)
     <companion>/    a companion study, laid out the same way
 
 ``result.nc`` holds nothing that depends on the machine: the same inputs give the same bytes.
@@ -26,7 +26,8 @@ import xarray as xr
 
 from contactstudy.arrays import Array
 from contactstudy.exceptions import InputError
-from contactstudy.study.files import netcdf_attributes, writing
+from contactstudy.files import writing
+from contactstudy.store import netcdf_attributes
 
 RESULT_FILE = "result.nc"
 METRICS_FILE = "metrics.json"

@@ -2,21 +2,20 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import asdict
 from pathlib import Path
 
 from contactstudy.exceptions import ContactStudyError, InputError
+from contactstudy.files import ensure_writable, file_digest
 from contactstudy.provenance import provenance
 from contactstudy.reporter import Quiet, Reporter
-from contactstudy.study import store
+from contactstudy.store import Kept, Store
 from contactstudy.study.compute import compute
-from contactstudy.study.files import ensure_writable, writing
 from contactstudy.study.kinds.passage.build import recipe
 from contactstudy.study.kinds.passage.fields import FIELDS, write_fields
 from contactstudy.study.kinds.passage.metrics import study_metrics
 from contactstudy.study.kinds.passage.schema import Study
-from contactstudy.study.plan import Plan, plan_study
+from contactstudy.study.plan import RUNS, Plan, plan_study
 from contactstudy.study.results import (
     METRICS_FILE,
     RESULT_FILE,
@@ -25,7 +24,7 @@ from contactstudy.study.results import (
     write_results,
 )
 
-FINISHED = "finished.json"
+FINISHED = "finished"
 
 
 def run_study(
@@ -76,7 +75,7 @@ def collect(plan: Plan) -> StudyResults:
     """Finished runs, their comparison and everything else that the report needs."""
     study = plan.study
     found = {name: _finished_run(plan, name) for name in study.runs}
-    runs = {name: run.data for name, run in found.items()}
+    runs = {name: run.value for name, run in found.items()}
     compare_from = study.journey.start + study.journey.fade_in
     seed = plan.inputs["irregularity"].get("seed")
     mesh = asdict(recipe(study)) if study.runs and study.track.rail != "given" else None
@@ -89,7 +88,7 @@ def collect(plan: Plan) -> StudyResults:
         runs=runs,
         reference=study.reference,
         metrics=study_metrics(
-            runs, {name: run.cost for name, run in found.items()}, study.reference, compare_from
+            runs, {name: run.about for name, run in found.items()}, study.reference, compare_from
         ),
         irregularity=plan.irregularity,
         provenance=provenance(seed, plan.key(), mesh, dict(plan.files)),
@@ -97,10 +96,10 @@ def collect(plan: Plan) -> StudyResults:
     )
 
 
-def _finished_run(plan: Plan, name: str) -> store.StoredRun:
-    run, damage = store.load_run(store.run_path(plan.out_dir, name, plan.run_key(name)))
-    if run is None:
-        raise ContactStudyError(damage or f"run {name}: was computed but is not in the store")
+def _finished_run(plan: Plan, name: str) -> Kept:
+    run = plan.runs.load(name, plan.run_key(name))
+    if run.value is None:
+        raise ContactStudyError(run.damage or f"run {name}: was computed but is not in the store")
     return run
 
 
@@ -125,21 +124,17 @@ def _outputs(plan: Plan) -> dict[str, str]:
         files += [one.out_dir / RESULT_FILE, one.out_dir / METRICS_FILE]
         for folder in ("figures", FIELDS):
             files += sorted((one.out_dir / folder).glob("*"))
-    return {path.relative_to(out).as_posix(): store.file_digest(path) for path in files}
+    return {path.relative_to(out).as_posix(): file_digest(path) for path in files}
 
 
 def _mark_finished(plan: Plan) -> None:
-    content = {"key": plan.key(), "files": _outputs(plan)}
-    with writing(plan.out_dir / store.STORE / FINISHED) as path:
-        path.write_text(json.dumps(content, indent=1) + "\n", "utf-8")
+    Store(plan.out_dir / RUNS).save(FINISHED, plan.key(), _outputs(plan))
 
 
 def finished_results(plan: Plan) -> StudyResults | None:
     """Results of a plan when all its output files are there, whole and up to date."""
+    marked = Store(plan.out_dir / RUNS).load(FINISHED, plan.key())
     try:
-        content = json.loads((plan.out_dir / store.STORE / FINISHED).read_text("utf-8"))
-        if content["key"] != plan.key() or content["files"] != _outputs(plan):
-            return None
-        return read_results(plan.out_dir)
-    except (OSError, ValueError, KeyError, TypeError, InputError):
+        return read_results(plan.out_dir) if marked.value == _outputs(plan) else None
+    except (OSError, InputError):  # a file is missing or damaged
         return None

@@ -9,8 +9,8 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any, Literal
 
+from contactstudy.files import writing
 from contactstudy.plot.curves import Curve, Plot
-from contactstudy.study.files import writing
 from contactstudy.verification.check import CaseResult, Check, Table
 
 JSON_FILE = "verification.json"

@@ -9,12 +9,13 @@ from pathlib import Path
 from typing import Any
 
 from contactstudy import executor as sweep
+from contactstudy.code import code_digest
 from contactstudy.exceptions import ContactStudyError
 from contactstudy.executor import Progress, Task, run_tasks
+from contactstudy.files import ensure_writable
 from contactstudy.provenance import versions
 from contactstudy.reporter import Quiet, Reporter
-from contactstudy.study import store
-from contactstudy.study.files import ensure_writable, writing
+from contactstudy.store import Store, store_key
 from contactstudy.verification.case import Case
 from contactstudy.verification.outcome import Outcome, from_data, judged, to_data
 
@@ -97,17 +98,18 @@ def _of_task(name: str, ended: sweep.Outcome) -> Outcome:
 
 
 def about() -> dict[str, Any]:
-    """Versions of everything that computes, and the hash of the program's and the cases' code."""
-    found = versions()
+    """Versions of everything that computes, and the hash of the program's code."""
+    return {"versions": versions() | _optional_versions(), "code": code_digest()[:16]}
+
+
+def _optional_versions() -> dict[str, str]:
+    found = {}
     for package in _OPTIONAL:
         try:
             found[package] = version(package)
         except PackageNotFoundError:
             continue
-    own = {
-        path.name: store.file_digest(path) for path in sorted(Path(__file__).parent.glob("*.py"))
-    }
-    return {"versions": found, "code": store.digest([store.code_digest(), own])}
+    return found
 
 
 def complaints(outcomes: Sequence[Outcome]) -> list[str]:
@@ -145,19 +147,14 @@ def _skipped(case: Case, quick: bool) -> Outcome | None:
     return None
 
 
-def _path(case: Case, out_dir: Path) -> Path:
-    return out_dir / KEPT / f"{case.name}-{store.digest([case.name, about()])}.json"
+def _key(case: Case) -> str:
+    return store_key([case.name, _optional_versions()], case.function.partition(":")[0])
 
 
 def _kept(case: Case, out_dir: Path) -> Outcome | None:
     """The case as it was kept; None when there is none, or when the file is damaged."""
-    try:
-        data = json.loads(_path(case, out_dir).read_text("utf-8"))
-        if data["sha256"] != store.digest(data["result"], 64):
-            return None
-        return judged(from_data(data["result"]))
-    except (OSError, ValueError, KeyError, TypeError):
-        return None
+    data = Store(out_dir / KEPT).load(case.name, _key(case)).value
+    return None if data is None else judged(from_data(data))
 
 
 def _run(case: Case, out_dir: Path) -> Outcome:
@@ -168,11 +165,6 @@ def _run(case: Case, out_dir: Path) -> Outcome:
     except Exception as error:  # the others shall run all the same; the command then ends with 1
         return Outcome(case.name, "broke down", f"{type(error).__name__}: {error}")
     data = to_data(result)
-    path = _path(case, out_dir)
-    with writing(path) as temporary:
-        text = json.dumps(
-            {"sha256": store.digest(data, 64), "result": data}, ensure_ascii=False, allow_nan=False
-        )
-        temporary.write_text(text + "\n", "utf-8")
+    Store(out_dir / KEPT).save(case.name, _key(case), data)
     # as it is read again, so that a resumed command writes the same bytes
     return judged(from_data(json.loads(json.dumps(data))))

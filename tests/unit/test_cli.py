@@ -16,8 +16,10 @@ import xarray as xr
 
 from contactstudy import cli
 from contactstudy.irregularity import paper_spectrum
+from contactstudy.solids.bodies import rail_body
 from contactstudy.solids.cache import entry_path
-from contactstudy.study import compute, runner, store
+from contactstudy.store import DATASET, Store
+from contactstudy.study import compute, runner
 from contactstudy.study.kinds.passage import build
 from contactstudy.study.kinds.passage.roughness import describe
 from contactstudy.study.loading import load_study
@@ -212,10 +214,10 @@ def test_a_run_that_breaks_down_keeps_the_others(capfd, short, tmp_path, monkeyp
         "from contactstudy.exceptions import NumericalError\n"
         "from contactstudy.study import compute\n"
         "execute = compute.execute\n"
-        "def breaking(study, run, path, progress):\n"
+        "def breaking(study, run, store, key, progress):\n"
         "    if run == 'point':\n"
         "        raise NumericalError('step 7 at X = 1.3 m: the force is not finite')\n"
-        "    execute(study, run, path, progress)\n"
+        "    execute(study, run, store, key, progress)\n"
     )
     monkeypatch.syspath_prepend(str(tmp_path))
     breaking = importlib.import_module("breaking")
@@ -253,9 +255,9 @@ def test_interrupt_leaves_whole_files_and_the_next_call_goes_on(short, tmp_path)
     left = sorted(p.name for p in out.rglob("*") if p.is_file())
     assert len(left) == 2 and all(name.startswith("quick-") for name in left)
     path = next(out.glob("runs/quick-*.nc"))
-    run, damage = store.load_run(path)
-    assert damage == "" and isinstance(run.data, xr.Dataset)
-    assert np.all(np.isfinite(run.data.contact_force))
+    kept = Store(path.parent, DATASET).load(*path.stem.rsplit("-", 1))
+    assert kept.damage == "" and isinstance(kept.value, xr.Dataset)
+    assert np.all(np.isfinite(kept.value.contact_force))
 
 
 SOLID = """
@@ -282,7 +284,7 @@ law = "hertz"
 def test_a_damaged_cache_entry_is_found_out_and_rebuilt(capfd, short, tmp_path, monkeypatch):
     monkeypatch.setenv("CONTACTSTUDY_CACHE", str(tmp_path / "cache"))
     short.write_text(SOLID)
-    entry = entry_path(build.recipe(load_study(short)))
+    entry = entry_path(rail_body(build.recipe(load_study(short))))
     entry.parent.mkdir()
     entry.write_bytes(b"PK\x03\x04 half a file")
     assert cli.main(["run", str(short), "--out", str(tmp_path / "out")]) == 0

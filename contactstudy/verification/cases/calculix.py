@@ -10,10 +10,10 @@ from contactstudy.export.press_mesh import PressMesh, press_mesh
 from contactstudy.export.run_calculix import CalculixRun, run_calculix
 from contactstudy.halfspace.hertz import HertzContact, contact_modulus, hertz_contact
 from contactstudy.profiles.rail import rail_profile
+from contactstudy.solids.bodies import rail_body, wheel_body
 from contactstudy.solids.cache import cached
-from contactstudy.solids.cell import RailCell, condense
 from contactstudy.solids.recipe import CellRecipe
-from contactstudy.solids.wheel import WheelFlexibility, elastic_wheel
+from contactstudy.solids.wheel import WheelFlexibility
 from contactstudy.solids.wheel_recipe import WheelRecipe
 from contactstudy.solvers.surface import geometry_press, wheel_points
 from contactstudy.track.model import Track
@@ -59,7 +59,7 @@ class _Model:
         """The short clamped rail, without supports."""
         rail = Track(rail=solid_rail(self.cell), length=self.length, support=None)
         if self.reduced:
-            return SolidTrack(rail, cached(condense, RailCell, self.cell), mean_phase=False)
+            return SolidTrack(rail, cached(rail_body(self.cell)), mean_phase=False)
         return UnreducedTrack(rail, self.cell)
 
     @property
@@ -96,7 +96,7 @@ def press_on_coarse_mesh() -> CaseResult:
 
 def _case(name: str, model: _Model, smooth_band: float | None) -> CaseResult:
     mesh, track = model.mesh, model.track
-    wheel = cached(elastic_wheel, WheelFlexibility, model.wheel)
+    wheel = cached(wheel_body(model.wheel))
     run, middle = model.calculix(mesh), 0.5 * model.length
     flat = facet_press(track, wheel, LOAD, PENALTY, middle)
     theirs = read_as_facets(mesh, run)

@@ -10,8 +10,9 @@ from contactstudy.export.press_mesh import press_mesh
 from contactstudy.export.run_calculix import run_calculix
 from contactstudy.geometry.placement import Geometry, wheel_points
 from contactstudy.profiles.rail import rail_profile
+from contactstudy.solids.bodies import wheel_body
 from contactstudy.solids.cache import cached
-from contactstudy.solids.wheel import WheelFlexibility, elastic_wheel
+from contactstudy.solids.wheel import WheelFlexibility
 from contactstudy.solvers.surface import geometry_press
 from contactstudy.study.kinds.passage import build
 from contactstudy.study.kinds.passage.placing import geometry
@@ -98,7 +99,7 @@ def _press(
     theirs = read_as_facets(mesh, run)
 
     track = UnreducedTrack(Track(rail=solid_rail(cell), length=LENGTH, support=None), cell)
-    wheel = cached(elastic_wheel, WheelFlexibility, recipe)
+    wheel = cached(wheel_body(recipe))
     flat = facet_press(track, wheel, load, penalty, 0.5 * LENGTH, geometry=placed)
     smooth = _smooth(track, wheel, load, penalty, placed)
     source = f"CalculiX {run.version}"

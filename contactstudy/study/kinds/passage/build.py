@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Any
+
 import numpy as np
 
 from contactstudy.contact.laws import ContactLaw, HertzSpring, LinearSpring, RigidContact
@@ -10,11 +13,11 @@ from contactstudy.dynamics import integrators
 from contactstudy.halfspace.hertz import HertzContact, contact_modulus, hertz_contact
 from contactstudy.profiles.rail import rail_profile
 from contactstudy.profiles.wheel_body import wheel_dimensions
-from contactstudy.solids.cache import cached
-from contactstudy.solids.cell import RailCell, condense
+from contactstudy.solids.bodies import modes_body, rail_body, wheel_body
+from contactstudy.solids.cache import Body, cached
 from contactstudy.solids.recipe import CellRecipe
-from contactstudy.solids.wheel import WheelFlexibility, WheelRecipe, elastic_wheel, rigid_wheel
-from contactstudy.solids.wheel_modes import ModesRecipe, WheelModes, wheel_modes
+from contactstudy.solids.wheel import WheelFlexibility, WheelRecipe, rigid_wheel
+from contactstudy.solids.wheel_modes import ModesRecipe, WheelModes
 from contactstudy.solids.wheel_recipe import FAR_STEP, FAR_STEP_OF_MODES
 from contactstudy.solvers.journey import Journey
 from contactstudy.solvers.surface import PRESS_LOADS, geometry_press
@@ -132,7 +135,7 @@ def track(study: Study) -> Track:
 
 def solid_track(study: Study, described: Track) -> SolidTrack:
     """The track on its meshed rail, whose cell is condensed or taken from the cache."""
-    return SolidTrack(described, cached(condense, RailCell, recipe(study)))
+    return SolidTrack(described, cached(rail_body(recipe(study))))
 
 
 def wheel(study: Study, run: str | None = None) -> WheelFlexibility:
@@ -140,7 +143,7 @@ def wheel(study: Study, run: str | None = None) -> WheelFlexibility:
     made = wheel_recipe(study)
     if (study.wheel(run) if run else study.solid.wheel) == "rigid":
         return rigid_wheel(made)
-    return cached(elastic_wheel, WheelFlexibility, made)
+    return cached(wheel_body(made))
 
 
 def modes_recipe(study: Study) -> ModesRecipe:
@@ -152,7 +155,17 @@ def modes(study: Study, run: str) -> WheelModes | None:
     """The elastic modes of a run's wheel, computed or taken from the cache; None without."""
     if study.wheel(run) != "modal":
         return None
-    return cached(wheel_modes, WheelModes, modes_recipe(study))
+    return cached(modes_body(modes_recipe(study)))
+
+
+def bodies(study: Study, run: str) -> tuple[Body[Any], ...]:
+    """The condensed bodies that a run needs."""
+    makers: dict[str, Callable[[], Body[Any]]] = {
+        "rail": lambda: rail_body(recipe(study)),
+        "wheel": lambda: wheel_body(wheel_recipe(study)),
+        "wheel modes": lambda: modes_body(modes_recipe(study)),
+    }
+    return tuple(makers[name]() for name in study.bodies(run))
 
 
 def journey(study: Study, run: str) -> Journey:

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
+from typing import Any
 
 import xarray as xr
 
 from contactstudy.executor import Progress
-from contactstudy.solids.cache import entry_path
+from contactstudy.solids.cache import Body, cached
 from contactstudy.study.kinds.passage import build
 from contactstudy.study.kinds.passage.placing import geometry
 from contactstudy.study.kinds.passage.roughness import irregularity_of
@@ -75,25 +76,9 @@ def _surface(study: Study, run: str, table: SurfaceRun, progress: Progress | Non
     )
 
 
-def condense_body(study: Study, body: str, progress: Progress | None = None) -> None:
-    """Condense the "rail", the "wheel" or the "wheel modes" of a study into the cache."""
-    if body == "rail":
-        build.solid_track(study, build.track(study))
-        return
-    for run in study.runs:
-        if body in study.bodies(run):
-            build.wheel(study, run) if body == "wheel" else build.modes(study, run)
-            return
-
-
-def is_condensed(study: Study, body: str) -> bool:
-    """Whether the cache has the "rail", the "wheel" or the "wheel modes" of a study."""
-    recipes = {
-        "rail": build.recipe,
-        "wheel": build.wheel_recipe,
-        "wheel modes": build.modes_recipe,
-    }
-    return entry_path(recipes[body](study)).exists()
+def condense_body(body: Body[Any], progress: Progress | None = None) -> None:
+    """Condense a body into the cache."""
+    cached(body)
 
 
 def peak_memory_mb() -> float | None:

@@ -11,12 +11,12 @@ from contactstudy import __version__
 from contactstudy.exceptions import InputError
 from contactstudy.export.calculix import calculix_input
 from contactstudy.export.press_mesh import PressMesh, press_mesh
+from contactstudy.files import writing
 from contactstudy.geometry.placement import Geometry
 from contactstudy.halfspace.hertz import contact_modulus, hertz_contact
 from contactstudy.profiles.rail import rail_profile
 from contactstudy.solids.recipe import CellRecipe
 from contactstudy.solids.wheel_recipe import WheelRecipe
-from contactstudy.study.files import writing
 from contactstudy.study.kinds.passage import build
 from contactstudy.study.kinds.passage.placing import geometry
 from contactstudy.study.kinds.passage.runs import SurfaceRun

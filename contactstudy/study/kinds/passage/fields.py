@@ -22,11 +22,11 @@ import numpy as np
 import xarray as xr
 
 from contactstudy.arrays import Array
+from contactstudy.files import writing
 from contactstudy.halfspace.pressure_field import SurfacePressure
 from contactstudy.halfspace.subsurface import SHALLOWEST, half_space_stress
 from contactstudy.solids.stress import maximum_shear, von_mises
 from contactstudy.solvers.patch_fields import instant_pressure
-from contactstudy.study.files import writing
 from contactstudy.study.results import StudyResults
 
 FIELDS = "fields"

@@ -10,8 +10,8 @@ from rich.console import Console
 from rich.table import Table
 
 from contactstudy.exceptions import InputError
+from contactstudy.solids.cache import is_cached
 from contactstudy.study.kinds.passage import build
-from contactstudy.study.kinds.passage.execution import is_condensed
 from contactstudy.study.kinds.passage.placing import scan_meeting
 from contactstudy.study.kinds.passage.roughness import describe
 from contactstudy.study.kinds.passage.runs import PointRun
@@ -142,11 +142,11 @@ def _contact(study: Study) -> str:
 def _condensation(study: Study, companions: list[Study]) -> float:
     """Seconds of condensing what the cache does not have; rail and wheel at the same time."""
     needed = [
-        CONDENSATION[body] * (WHOLE if body == "rail" and one.solid.section == "whole" else 1.0)
+        CONDENSATION[b.name] * (WHOLE if b.name == "rail" and one.solid.section == "whole" else 1)
         for one in (study, *companions)
         for run in one.runs
-        for body in one.bodies(run)
-        if not is_condensed(one, body)
+        for b in build.bodies(one, run)
+        if not is_cached(b)
     ]
     return max(needed, default=0.0)
 

@@ -9,10 +9,10 @@ from pathlib import Path
 import numpy as np
 
 from contactstudy import irregularity as irr
+from contactstudy.files import file_digest
 from contactstudy.study.kinds.passage.schema import Study
 from contactstudy.study.kinds.passage.tables import IrregularityTable
 from contactstudy.study.results import IrregularityInfo, Level, Spectrum
-from contactstudy.study.store import file_digest
 
 PROFILE_STEP = 0.01  # m, of the profile drawn in Fig. 1b
 CURVE_POINTS = 400  # of a spectrum's formula

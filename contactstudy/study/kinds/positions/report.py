@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from contactstudy.files import writing
 from contactstudy.plot.curves import Curve, Plot, curve
 from contactstudy.plot.draw import draw
 from contactstudy.plot.style import figure_style, save
@@ -15,7 +16,6 @@ from contactstudy.plot.text import label, number
 from contactstudy.report.quantity import fixed, quantity
 from contactstudy.report.tables import Block, table, text
 from contactstudy.report.typesetting import typeset
-from contactstudy.study.files import writing
 from contactstudy.study.kinds.positions.terminal import COLUMNS
 
 _DRAWN = ("y", "approach", "peak_pressure", "area")

@@ -11,13 +11,13 @@ import numpy as np
 import xarray as xr
 
 from contactstudy.exceptions import InputError, NumericalError
+from contactstudy.files import ensure_writable, writing
 from contactstudy.geometry.wheelset import Side
 from contactstudy.halfspace.patches import press_wheel
 from contactstudy.profiles.curve import ProfileCurve
 from contactstudy.provenance import provenance, versions
 from contactstudy.reporter import Quiet, Reporter
-from contactstudy.study import store
-from contactstudy.study.files import ensure_writable, writing
+from contactstudy.store import Store, digest, store_key
 from contactstudy.study.kinds.positions.check import check_positions, pressings, roll_of
 from contactstudy.study.kinds.positions.table import PositionsStudy
 from contactstudy.study.results import RESULT_FILE
@@ -71,13 +71,17 @@ def run_positions(
     reporter = reporter or Quiet()
     ensure_writable(out_dir)
     todo = pressings(study)
-    paths = {one: _path(study, *one, out_dir) for one in todo}
-    check_positions(study, [one for one in todo if _kept(paths[one]) is None], reporter)
+    store = Store(out_dir / "runs")
+    kept = {one: store.load(_name(*one), _key(study, *one)) for one in todo}
+    check_positions(study, [one for one, found in kept.items() if found.value is None], reporter)
     reporter.begin("positions", len(todo))
     rows = []
     for done, one in enumerate(todo):
         reporter.progress("positions", done, len(todo))
-        rows += _kept(paths[one]) or _pressed_and_kept(study, *one, paths[one])
+        if (found := kept[one].value) is None:
+            found = _pressed(study, *one)
+            store.save(_name(*one), _key(study, *one), found)
+        rows += found
     reporter.end("positions", True)
     data = _dataset(study, rows)
     with writing(out_dir / RESULT_FILE) as path:
@@ -87,38 +91,22 @@ def run_positions(
     return data
 
 
-def _path(study: PositionsStudy, side: Side, k: int, out_dir: Path) -> Path:
-    """Where the patches of one wheel at one position are kept."""
+def _name(side: Side, k: int) -> str:
+    return f"{side}_{k + 1:03d}"
+
+
+def _key(study: PositionsStudy, side: Side, k: int) -> str:
+    """Hash of everything that decides the patches of one wheel at one position."""
     settings = {
         key: v for key, v in study.config().items() if key not in ("lateral", "yaw", "roll")
     }
     profiles = [_curve_digest(c) for c in (study.wheelset.wheel, study.wheelset.rail)]
-    inputs = [side, study.positions[k], settings, profiles, store.code_digest(), versions()]
-    return out_dir / store.STORE / f"{side}_{k + 1:03d}-{store.digest(inputs)}.json"
-
-
-def _kept(path: Path) -> list[dict[str, Any]] | None:
-    """Patches kept in a file; None if there are none, or the file is damaged."""
-    try:
-        kept = json.loads(path.read_text("utf-8"))
-        return list(kept["rows"]) if kept["sha256"] == store.digest(kept["rows"], 64) else None
-    except (OSError, ValueError, KeyError, TypeError):
-        return None
-
-
-def _pressed_and_kept(
-    study: PositionsStudy, side: Side, k: int, path: Path
-) -> list[dict[str, Any]]:
-    rows = _pressed(study, side, k)
-    with writing(path) as temporary:
-        text = json.dumps({"sha256": store.digest(rows, 64), "rows": rows})
-        temporary.write_text(text + "\n", "utf-8")
-    return rows
+    return store_key([side, study.positions[k], settings, profiles], _pressed)
 
 
 def _curve_digest(curve: ProfileCurve) -> str:
     s = np.linspace(*curve.s_range, 2001)
-    return store.digest(np.asarray(curve.point(s)).tolist())
+    return digest(np.asarray(curve.point(s)).tolist())
 
 
 def _pressed(study: PositionsStudy, side: Side, k: int) -> list[dict[str, Any]]:
@@ -150,7 +138,7 @@ def _dataset(study: PositionsStudy, rows: list[dict[str, Any]]) -> xr.Dataset:
     for name, (unit, meaning) in VARIABLES.items():
         attrs = {"units": unit, "long_name": meaning}
         data[name] = ("row", np.array([float(row[name]) for row in rows]), attrs)
-    key = store.digest([study.config(), store.code_digest(True), versions()])
+    key = store_key([study.config(), versions()], None)
     data.attrs = {
         "name": study.name,
         "title": study.title,

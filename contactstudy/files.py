@@ -1,21 +1,19 @@
-"""Files that are either whole or not there."""
+"""Files that are either whole or not there: the only way anything of the package is written."""
 
 from __future__ import annotations
 
 import contextlib
+import hashlib
 import os
 import tempfile
+import time
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
-
-import numpy as np
-import xarray as xr
 
 from contactstudy.exceptions import InputError
 
-#: Attributes of a run that depend on the machine; they stay out of ``result.nc``.
-MACHINE_ATTRIBUTES = ("seconds_setup", "seconds_stepping", "peak_memory_mb")
+#: Marks a temporary file as ours.
+_UNFINISHED = ".unfinished-"
 
 
 @contextlib.contextmanager
@@ -33,7 +31,9 @@ def writing(path: Path) -> Iterator[Path]:
         When the directory cannot be made or written.
     """
     ensure_writable(path.parent)
-    handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.stem}-", suffix=path.suffix)
+    handle, name = tempfile.mkstemp(
+        dir=path.parent, prefix=f"{_UNFINISHED}{path.stem}-", suffix=path.suffix
+    )
     os.close(handle)
     temporary = Path(name)
     try:
@@ -44,6 +44,23 @@ def writing(path: Path) -> Iterator[Path]:
         temporary.replace(path)
     finally:
         temporary.unlink(missing_ok=True)
+
+
+def remove_unfinished(directory: Path, stem: str = "", older_than: float = 0.0) -> None:
+    """Remove what writers left that were killed.
+
+    Parameters
+    ----------
+    directory : Path
+    stem : str
+        Only of files whose name begins so.
+    older_than : float
+        Only what nobody has written to for so many seconds.
+    """
+    for path in directory.glob(f"{_UNFINISHED}{stem}*"):
+        with contextlib.suppress(FileNotFoundError):  # its writer has ended meanwhile
+            if path.stat().st_mtime <= time.time() - older_than:
+                path.unlink()
 
 
 def ensure_writable(directory: Path) -> None:
@@ -60,15 +77,7 @@ def ensure_writable(directory: Path) -> None:
         ) from error
 
 
-def netcdf_attributes(run: xr.Dataset, drop: tuple[str, ...] = MACHINE_ATTRIBUTES) -> xr.Dataset:
-    """Copy of `run` whose attributes netCDF can hold: no None, no booleans, none of `drop`."""
-
-    def clean(attrs: dict[Any, Any]) -> dict[str, Any]:
-        kept = {str(k): v for k, v in attrs.items() if v is not None and k not in drop}
-        return {k: int(v) if isinstance(v, bool | np.bool_) else v for k, v in kept.items()}
-
-    copy = run.copy()
-    copy.attrs = clean(run.attrs)
-    for variable in copy.variables.values():
-        variable.attrs = clean(variable.attrs)
-    return copy
+def file_digest(path: Path) -> str:
+    """Hexadecimal SHA-256 of a file."""
+    with path.open("rb") as stream:
+        return hashlib.file_digest(stream, "sha256").hexdigest()

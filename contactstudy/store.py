@@ -1,0 +1,217 @@
+"""The one store: finished work on disk, found again by a hash of everything that went into it.
+
+An entry ``<name>-<key>`` is a file of content (``.npz`` arrays, ``.nc`` a dataset) and a slip
+``.json`` with the content's SHA-256 and what else is known about it; plain data stand in the slip
+itself. The content is put in place last, so an entry that is there is finished.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import re
+import zipfile
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from contactstudy.code import code_digest
+from contactstudy.files import file_digest, remove_unfinished, writing
+from contactstudy.provenance import computing_versions
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+#: Attributes of a run that depend on the machine; they stay out of files that are compared.
+MACHINE_ATTRIBUTES = ("seconds_setup", "seconds_stepping", "peak_memory_mb")
+_OWN = re.compile(r".+-[0-9a-f]{16,32}\.(npz|nc|json)")
+_ABANDONED = 3600.0  # s
+
+
+class StoreWarning(UserWarning):
+    """An entry was damaged and is made again, or could not be written."""
+
+
+@dataclass(frozen=True)
+class Form:
+    """How content is written and read.
+
+    Attributes
+    ----------
+    suffix : str
+        Of the file of content.
+    write : callable
+        ``write(value, path)``.
+    read : callable
+        ``read(path)``; only called with content that has the right checksum.
+    """
+
+    suffix: str
+    write: Callable[[Any, Path], None]
+    read: Callable[[Path], Any]
+
+
+@dataclass(frozen=True)
+class Kept:
+    """What the store has under a key.
+
+    Attributes
+    ----------
+    value : object
+        None when there is nothing, or nothing whole.
+    about : mapping
+        What was said about it when it was saved.
+    damage : str
+        What is wrong with the entry, for the user; "" when nothing is.
+    """
+
+    value: Any = None
+    about: Mapping[str, Any] = field(default_factory=dict)
+    damage: str = ""
+
+
+def store_key(inputs: Any, code_of: Callable[..., Any] | str | None) -> str:
+    """Key of what `inputs` make.
+
+    Parameters
+    ----------
+    inputs : object
+        Plain data.
+    code_of : callable, str or None
+        What computes, or its module; see `contactstudy.code.code_digest`. None for what all of
+        the program decides.
+    """
+    module = code_of if isinstance(code_of, str) or code_of is None else code_of.__module__
+    return digest([inputs, code_digest(module), computing_versions()])
+
+
+@dataclass(frozen=True)
+class Store:
+    """A folder of entries of one form.
+
+    Attributes
+    ----------
+    folder : Path
+        Made when something is saved.
+    form : Form, optional
+        `ARRAYS` or `DATASET`; plain data without one.
+    """
+
+    folder: Path
+    form: Form | None = None
+
+    def path(self, name: str, key: str) -> Path:
+        """File of an entry, there when it is finished."""
+        return self.folder / f"{name}-{key}{self.form.suffix if self.form else '.json'}"
+
+    def has(self, name: str, key: str) -> bool:
+        """Whether an entry is there; it may still turn out to be damaged."""
+        return self.path(name, key).exists()
+
+    def load(self, name: str, key: str) -> Kept:
+        """Read an entry."""
+        path = self.path(name, key)
+        if not path.exists():
+            return Kept()
+        try:
+            slip = json.loads(path.with_suffix(".json").read_text("utf-8"))
+            expected, about = slip["sha256"], slip["about"]
+            found = digest(slip["value"], 64) if self.form is None else file_digest(path)
+            if found != expected:
+                return Kept(damage=f"{path}: is damaged (its content does not match its checksum)")
+            return Kept(self.form.read(path) if self.form else slip["value"], about)
+        except FileNotFoundError:
+            return Kept(damage=f"{path}: is damaged (its checksum is missing)")
+        except _UNREADABLE as error:
+            return Kept(damage=f"{path}: is damaged ({error})")
+
+    def save(self, name: str, key: str, value: Any, about: Mapping[str, Any] | None = None) -> Path:
+        """Write an entry; it counts as finished only when this returns.
+
+        Raises
+        ------
+        InputError
+            When the folder cannot be made or written.
+        """
+        remove_unfinished(self.folder, older_than=_ABANDONED)
+        path, slip = self.path(name, key), dict[str, Any](about=dict(about or {}))
+        if self.form is None:
+            with writing(path) as temporary:
+                _write_plain(slip | {"sha256": digest(value, 64), "value": value}, temporary)
+            return path
+        with writing(path) as temporary:
+            self.form.write(value, temporary)
+            with writing(path.with_suffix(".json")) as beside:
+                _write_plain(slip | {"sha256": file_digest(temporary)}, beside)
+        return path
+
+    def files(self) -> list[Path]:
+        """All files of all entries, of any form."""
+        if not self.folder.is_dir():
+            return []
+        return sorted(p for p in self.folder.iterdir() if _OWN.fullmatch(p.name) and p.is_file())
+
+    def clear(self) -> None:
+        """Remove all entries, and nothing else that lies in the folder."""
+        for path in self.files():
+            path.unlink(missing_ok=True)
+        remove_unfinished(self.folder)
+
+
+def digest(value: Any, length: int = 16) -> str:
+    """Hexadecimal SHA-256 of plain data, cut to `length` characters."""
+    text = json.dumps(value, sort_keys=True, ensure_ascii=False)
+    return hashlib.sha256(text.encode()).hexdigest()[:length]
+
+
+def netcdf_attributes(run: xr.Dataset, drop: tuple[str, ...] = MACHINE_ATTRIBUTES) -> xr.Dataset:
+    """Copy of `run` whose attributes netCDF can hold: no None, no booleans, none of `drop`."""
+    import numpy as np
+
+    def clean(attrs: dict[Any, Any]) -> dict[str, Any]:
+        kept = {str(k): v for k, v in attrs.items() if v is not None and k not in drop}
+        return {k: int(v) if isinstance(v, bool | np.bool_) else v for k, v in kept.items()}
+
+    copy = run.copy()
+    copy.attrs = clean(run.attrs)
+    for variable in copy.variables.values():
+        variable.attrs = clean(variable.attrs)
+    return copy
+
+
+def _write_plain(value: Any, path: Path) -> None:
+    path.write_text(json.dumps(value, ensure_ascii=False) + "\n", "utf-8")
+
+
+def _write_arrays(arrays: Mapping[str, Any], path: Path) -> None:
+    import numpy as np
+
+    np.savez(path, allow_pickle=False, **arrays)
+
+
+def _read_arrays(path: Path) -> dict[str, Any]:
+    import numpy as np
+
+    with np.load(path, allow_pickle=False) as data:
+        return dict(data)
+
+
+def _write_dataset(data: xr.Dataset, path: Path) -> None:
+    netcdf_attributes(data).to_netcdf(path, engine="h5netcdf")
+
+
+def _read_dataset(path: Path) -> xr.Dataset:
+    import xarray as xr
+
+    return xr.load_dataset(path, engine="h5netcdf")
+
+
+#: A mapping of names to arrays.
+ARRAYS = Form(".npz", _write_arrays, _read_arrays)
+#: An `xarray.Dataset`.
+DATASET = Form(".nc", _write_dataset, _read_dataset)
+_UNREADABLE = (
+    OSError, ValueError, KeyError, TypeError, RuntimeError, EOFError, ArithmeticError,
+    zipfile.BadZipFile,
+)  # fmt: skip
