@@ -210,7 +210,7 @@ def keys(tmp_path):
     [
         ("contactstudy/dynamics/stepper.py", True, False),
         ("contactstudy/solids/hexahedron.py", True, True),
-        ("contactstudy/figures/style.py", False, False),
+        ("contactstudy/plot/style.py", False, False),
         ("contactstudy/report/content.py", False, False),
         ("contactstudy/cli.py", False, False),
         ("reports/template/template.typ", False, False),
