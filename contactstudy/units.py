@@ -7,9 +7,11 @@ import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any
+from numbers import Real
+from typing import TYPE_CHECKING, Any
 
-import pint
+if TYPE_CHECKING:
+    import pint
 
 
 class UnitError(ValueError):
@@ -18,6 +20,8 @@ class UnitError(ValueError):
 
 @lru_cache(maxsize=1)
 def _registry() -> pint.UnitRegistry:
+    import pint  # half a second that only a text with a unit is worth
+
     return pint.UnitRegistry(cache_folder=None)
 
 
@@ -43,7 +47,7 @@ def to_si(value: Any, unit: str) -> float:
         When it is no number, not finite, or of another dimension.
     """
     example = f"a number in {unit} or text with a unit" if unit else "a number"
-    if isinstance(value, bool) or not isinstance(value, int | float | str):
+    if isinstance(value, bool) or not isinstance(value, Real | str):
         raise UnitError(f"must be {example}")
     if isinstance(value, str):
         number, text = _split(value, example)

@@ -1,0 +1,58 @@
+"""What a parameter is, and how impossible arguments are refused: all of them in one error.
+
+A frozen dataclass that derives from `Parameters` states each of its parameters once:
+``pad_stiffness: Annotated[float, Unit("N/m"), Above(0), "rail pad stiffness"] = 65e6``. From that
+come the limits for a caller from Python and for a table of a study file (`read`), the values and
+units that are printed (`resolved`, `units`), and the list of all keys (`entries`).
+"""
+
+from contactstudy.validation.base import Naming, Parameters
+from contactstudy.validation.checks import not_negative, one_of, positive, raise_if
+from contactstudy.validation.definition import Parameter, parameter, parameters
+from contactstudy.validation.messages import complaint, did_you_mean, unknown
+from contactstudy.validation.metadata import (
+    Above,
+    AtLeast,
+    AtMost,
+    By,
+    Key,
+    Same,
+    Unit,
+    Variants,
+    When,
+    Written,
+    by,
+)
+from contactstudy.validation.tables import Entry, Table, entries, read, resolved, units
+
+__all__ = [
+    "Above",
+    "AtLeast",
+    "AtMost",
+    "By",
+    "Entry",
+    "Key",
+    "Naming",
+    "Parameter",
+    "Parameters",
+    "Same",
+    "Table",
+    "Unit",
+    "Variants",
+    "When",
+    "Written",
+    "by",
+    "complaint",
+    "did_you_mean",
+    "entries",
+    "not_negative",
+    "one_of",
+    "parameter",
+    "parameters",
+    "positive",
+    "raise_if",
+    "read",
+    "resolved",
+    "units",
+    "unknown",
+]

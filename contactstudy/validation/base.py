@@ -1,0 +1,162 @@
+"""The base of frozen dataclasses whose fields are parameters."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import MISSING, dataclass
+from typing import Any
+
+from contactstudy.exceptions import InputError
+from contactstudy.validation.definition import Parameter, parameter, parameters
+from contactstudy.validation.messages import any_of, complaint
+from contactstudy.validation.metadata import Variants
+
+Naming = Callable[[str], str]
+"""From a field to how the caller knows it: "track.length" in a file, "Track.length" in Python."""
+
+
+@dataclass(frozen=True)
+class Place:
+    """The table of a study file that an object was read from.
+
+    Attributes
+    ----------
+    path : str
+        Of the table.
+    given : frozenset of str
+        Fields whose keys stand in it.
+    """
+
+    path: str
+    given: frozenset[str]
+
+
+class Parameters:
+    """Reads and checks its annotated fields when it is made; all problems in one error.
+
+    Raises
+    ------
+    InputError
+        From a derived class: with every value that is not allowed; with every rule over several
+        values that is broken, once each alone is allowed.
+    """
+
+    def __post_init__(self) -> None:
+        key = self._naming()
+        given = vars(self)
+        values, problems = check(type(self), given, key)
+        for name, value in values.items():
+            object.__setattr__(self, name, value)
+        if not problems:
+            problems = self._inapplicable(key) + list(self.problems(key))
+        if problems:
+            raise InputError(problems)
+
+    def problems(self, key: Naming) -> Iterable[str]:
+        """Complaints about values that are fine alone; `key` gives a field's name to the caller."""
+        return ()
+
+    def given(self, name: str) -> bool:
+        """Whether the caller chose a field's value: in Python, whether it is not the default."""
+        place: Place | None = vars(self).get("_place")
+        if place is not None:
+            return name in place.given
+        default = parameter(type(self), name).default
+        return default is not MISSING and getattr(self, name) != default
+
+    def resolved(self) -> dict[str, Any]:
+        """Key -> SI value of all keys that apply, as plain data."""
+        own = parameters(type(self))
+        found = {
+            p.key: plain(getattr(self, p.name))
+            for p in own
+            if p.key and p.variants is None and p.applies(self)
+        }
+        for p in own:
+            if p.variants is not None:
+                found |= of_variant(p.variants, getattr(self, p.name))
+        return found
+
+    def _naming(self) -> Naming:
+        place: Place | None = vars(self).get("_place")
+        if place is None:
+            return lambda name: f"{type(self).__name__}.{name}"
+        return naming(type(self), place.path)
+
+    def _inapplicable(self, key: Naming) -> list[str]:
+        problems = []
+        for p in parameters(type(self)):
+            if not p.applies(self) and self.given(p.name):
+                when = next(w for w in p.when if getattr(self, w.decider) not in w.values)
+                here = getattr(self, when.decider)
+                problems.append(only_with(key(p.name), when.decider, when.values, here))
+        return problems
+
+
+def only_with(key: str, decider: str, values: Iterable[str], here: str) -> str:
+    """Complaint about a key that means nothing beside the value of a deciding one."""
+    return f'{key}: applies only with {decider} = {any_of(values)} (here "{here}")'
+
+
+def naming(owner: type, path: str) -> Naming:
+    """How the fields of a class are called in the table `path` of a study file."""
+
+    def key(name: str) -> str:
+        found = [p.key for p in parameters(owner) if p.name == name]
+        return f"{path}.{found[0] if found and found[0] else name}"
+
+    return key
+
+
+def check(owner: type, given: Mapping[str, Any], key: Naming) -> tuple[dict[str, Any], list[str]]:
+    """Values of the fields of a class as it holds them, and everything that is wrong with them.
+
+    Parameters
+    ----------
+    owner : type
+        A dataclass.
+    given : mapping of str to object
+        Field -> value; fields that are left out are not looked at.
+    key : callable
+        From a field to how the caller knows it.
+    """
+    values: dict[str, Any] = {}
+    problems = []
+    for p in parameters(owner):
+        if p.name not in given:
+            continue
+        value = given[p.name]
+        if value is None and p.by is not None:
+            value = p.by.defaults.get(given.get(p.by.decider))
+        if value is None and p.default is None:
+            continue  # its owner fills it in
+        if p.variants is not None:
+            problems += _wrong_variant(p, value, key)
+            continue
+        values[p.name], wrong = p.read(value)
+        problems += [
+            f"{key(p.name)}{place}: {text}"
+            if item is None
+            else complaint(f"{key(p.name)}{place}", item, text)
+            for place, item, text in wrong
+        ]
+    return values, problems
+
+
+def _wrong_variant(p: Parameter, value: Any, key: Naming) -> list[str]:
+    assert p.variants is not None
+    classes = list(p.variants.classes.values())
+    if None in classes if value is None else isinstance(value, tuple(c for c in classes if c)):
+        return []
+    allowed = " or ".join("None" if made is None else made.__name__ for made in classes)
+    return [complaint(key(p.name), repr(value), f"must be of type {allowed}")]
+
+
+def plain(value: Any) -> Any:
+    """Value as a study file could hold it."""
+    return list(value) if isinstance(value, tuple) else value
+
+
+def of_variant(variants: Variants, made: Parameters | None) -> dict[str, Any]:
+    """Deciding key and the values of the object that it chose."""
+    return {variants.key: variants.name(made)} | (made.resolved() if made is not None else {})

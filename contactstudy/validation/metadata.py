@@ -1,0 +1,122 @@
+"""What stands beside the type of a parameter in ``Annotated``; a plain text is its meaning."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+
+@dataclass(frozen=True)
+class Unit:
+    """SI unit in pint's notation."""
+
+    symbol: str
+
+
+@dataclass(frozen=True)
+class Above:
+    """Exclusive lower limit."""
+
+    limit: float
+
+
+@dataclass(frozen=True)
+class AtLeast:
+    """Inclusive lower limit."""
+
+    limit: float
+
+
+@dataclass(frozen=True)
+class AtMost:
+    """Inclusive upper limit."""
+
+    limit: float
+
+
+@dataclass(frozen=True)
+class Key:
+    """Key in a study file, where it is not the field's name; "" if it has none."""
+
+    name: str
+
+
+@dataclass(frozen=True)
+class Same:
+    """The parameter `name` of another class: its unit, limits and meaning."""
+
+    owner: type
+    name: str
+
+
+@dataclass(frozen=True, init=False)
+class When:
+    """The parameter means something only with these values of a field of the same class."""
+
+    decider: str
+    values: tuple[str, ...]
+
+    def __init__(self, decider: str, *values: str) -> None:
+        object.__setattr__(self, "decider", decider)
+        object.__setattr__(self, "values", values)
+
+
+@dataclass(frozen=True)
+class Written:
+    """Other ways to write a value, e.g. the ratio "1:40" of an angle.
+
+    Attributes
+    ----------
+    convert : callable
+        From what was given and the unit to what is read further; it gives back what it does not
+        know, and raises `contactstudy.units.UnitError` where it knows better.
+    form : str
+        The end of the complaint, e.g. "a ratio like 1:40".
+    """
+
+    convert: Callable[[Any, str], Any]
+    form: str = ""
+
+
+@dataclass(frozen=True, init=False)
+class By:
+    """Defaults that depend on another field of the same class."""
+
+    decider: str
+    defaults: Mapping[str, Any]
+
+    def __init__(self, decider: str, **defaults: Any) -> None:
+        object.__setattr__(self, "decider", decider)
+        object.__setattr__(self, "defaults", defaults)
+
+
+def by() -> Any:
+    """Default of a field whose `By` says what it is, or whose owner fills it in."""
+    return None
+
+
+@dataclass(frozen=True)
+class Variants:
+    """A key of a study file whose value chooses a class; its parameters stand in the same table.
+
+    Attributes
+    ----------
+    key : str
+        The deciding key.
+    classes : mapping of str to type or None
+        Value of the key -> class; the first one is the default.
+    meaning : str
+    """
+
+    key: str
+    classes: Mapping[str, Any]
+    meaning: str = ""
+
+    @property
+    def default(self) -> str:
+        """The value that holds where the key is left out."""
+        return next(iter(self.classes))
+
+    def name(self, value: object) -> str:
+        """Value of the key for an object of one of the classes."""
+        wanted = None if value is None else type(value)
+        return next(name for name, made in self.classes.items() if made is wanted)

@@ -1,0 +1,160 @@
+"""Tables of a study file: which keys there are, objects read from them, values and units."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any, Literal, cast
+
+from contactstudy.exceptions import InputError
+from contactstudy.units import Limits
+from contactstudy.validation.base import (
+    Parameters,
+    Place,
+    check,
+    naming,
+    of_variant,
+    only_with,
+)
+from contactstudy.validation.definition import Parameter, parameters
+from contactstudy.validation.messages import any_of, complaint, did_you_mean, unknown
+from contactstudy.validation.metadata import Variants
+
+Table = type[Parameters] | Variants
+"""What a table is read as: one class, or one of several that a key chooses."""
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A key of a table.
+
+    Attributes
+    ----------
+    parameter : Parameter
+    conditions : tuple of (str, tuple of str)
+        Deciding keys and the values of them with which the key applies, outermost first.
+    """
+
+    parameter: Parameter
+    conditions: tuple[tuple[str, tuple[str, ...]], ...] = ()
+
+
+def entries(table: Table) -> dict[str, Entry]:
+    """All keys of a table in the order in which they are shown."""
+    if isinstance(table, Variants):
+        return _of_variants(table)
+    own = parameters(table)
+    found = {
+        p.key: Entry(p, tuple((_key_of(own, w.decider), w.values) for w in p.when))
+        for p in own
+        if p.key and p.variants is None
+    }
+    for p in own:
+        if p.variants is not None:
+            found |= _of_variants(p.variants)
+    return found
+
+
+def _key_of(own: tuple[Parameter, ...], name: str) -> str:
+    return next((p.key for p in own if p.name == name), name)
+
+
+def _of_variants(variants: Variants) -> dict[str, Entry]:
+    names = tuple(variants.classes)
+    kind = Literal[names]  # type: ignore[valid-type]
+    decider = Parameter("", variants.key, kind, variants.default, Limits(), variants.meaning)
+    found = {variants.key: Entry(decider)}
+    for name, made in variants.classes.items():
+        for key, entry in entries(made).items() if made is not None else ():
+            with_it: tuple[str, ...] = (name,)
+            if key in found:
+                with_it = (*found[key].conditions[0][1], name)
+            found[key] = replace(entry, conditions=((variants.key, with_it), *entry.conditions))
+    everywhere = tuple(name for name, made in variants.classes.items() if made is not None)
+    return {
+        key: replace(entry, conditions=entry.conditions[1:])
+        if entry.conditions and entry.conditions[0][1] == everywhere == names
+        else entry
+        for key, entry in found.items()
+    }
+
+
+def read(table: Table, data: Any, path: str) -> tuple[Any, list[str]]:
+    """Object that a table of a study file describes, and everything that is wrong with it.
+
+    Parameters
+    ----------
+    table : type of Parameters or Variants
+    data : object
+        The table as TOML gives it.
+    path : str
+        Its dotted name.
+
+    Returns
+    -------
+    object or None
+        None if anything is wrong.
+    list of str
+    """
+    if not isinstance(data, Mapping):
+        return None, [complaint(path, data, "must be a table")]
+    known = entries(table)
+    problems = [unknown(path, key, list(known)) for key in data if key not in known]
+    chosen: dict[str, str] = {}
+    made, wrong = _made(table, data, path, chosen)
+    problems += wrong
+    for key in sorted(key for key in data if key in known):
+        for decider, values in known[key].conditions:
+            if decider in chosen and chosen[decider] not in values:
+                problems.append(only_with(f"{path}.{key}", decider, values, chosen[decider]))
+                break
+    return (None if problems else made), problems
+
+
+def _made(
+    table: Table, data: Mapping[str, Any], path: str, chosen: dict[str, str]
+) -> tuple[Any, list[str]]:
+    if isinstance(table, Variants):
+        name = data.get(table.key, table.default)
+        if name not in table.classes:
+            hint = did_you_mean(name, table.classes) if isinstance(name, str) else ""
+            allowed = f"must be {any_of(table.classes)}{hint}"
+            return None, [complaint(f"{path}.{table.key}", name, allowed)]
+        chosen[table.key] = name
+        made = table.classes[name]
+        return (None, []) if made is None else _made(made, data, path, chosen)
+    own = parameters(table)
+    values, problems = {}, []
+    for p in own:
+        if p.variants is not None:
+            values[p.name], wrong = _made(p.variants, data, path, chosen)
+            problems += wrong
+        elif p.key and p.key in data:
+            values[p.name] = data[p.key]
+    if problems:
+        components = {p.name for p in own if p.variants is not None}
+        plain = {name: value for name, value in values.items() if name not in components}
+        return None, check(table, plain, naming(table, path))[1] + problems
+    given = frozenset(p.name for p in own if p.key in data)
+    made = object.__new__(table)
+    object.__setattr__(made, "_place", Place(path, given))
+    try:
+        cast(Any, table).__init__(made, **values)
+    except InputError as error:
+        return None, list(error.problems)
+    return made, []
+
+
+def resolved(table: Table, made: Parameters) -> dict[str, Any]:
+    """Key -> SI value of all keys that apply, as plain data."""
+    return of_variant(table, made) if isinstance(table, Variants) else made.resolved()
+
+
+def units(table: Table, values: Mapping[str, Any]) -> dict[str, str]:
+    """Key -> SI unit of those of `values` that have one; "rest" and other texts have none."""
+    known = entries(table)
+    return {
+        key: unit
+        for key, value in values.items()
+        if (unit := known[key].parameter.unit) and not isinstance(value, str)
+    }
