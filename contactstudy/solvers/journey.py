@@ -2,16 +2,25 @@
 
 import math
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 
 from contactstudy.track.model import Track
-from contactstudy.validation import not_negative, positive, raise_if
+from contactstudy.validation import (
+    Above,
+    AtLeast,
+    Key,
+    Naming,
+    Parameters,
+    Unit,
+    complaint,
+)
 from contactstudy.vehicle import Vehicle
 
 
 @dataclass(frozen=True)
-class Journey:
+class Journey(Parameters):
     """A run at constant speed.
 
     Parameters
@@ -28,30 +37,42 @@ class Journey:
         X where the rail's displacement is recorded [m].
     """
 
-    start: float = 6.0
-    end: float = 30.0
-    speed: float = 300.0 / 3.6
-    time_step: float = 5e-5
-    fade_in: float = 3.0
-    stations: tuple[float, ...] = ()
+    start: Annotated[
+        float, Unit("m"), AtLeast(0), Key("from"), "where the leading wheel starts"
+    ] = 6.0
+    end: Annotated[float, Unit("m"), AtLeast(0), Key("to"), "where it ends"] = 30.0
+    speed: Annotated[float, Unit("m/s"), Above(0), "speed"] = 300.0 / 3.6
+    time_step: Annotated[float, Unit("s"), Above(0), "time step"] = 5e-5
+    fade_in: Annotated[float, Unit("m"), AtLeast(0), "length over which the irregularity grows"] = (
+        3.0
+    )
+    stations: Annotated[
+        tuple[float, ...], Unit("m"), AtLeast(0), "where the rail's displacement is recorded"
+    ] = ()
 
-    def __post_init__(self) -> None:
-        problems = (
-            positive("journey speed", self.speed, "m/s")
-            + positive("journey time_step", self.time_step, "s")
-            + not_negative("journey fade_in", self.fade_in, "m")
-        )
-        if not (math.isfinite(self.start) and math.isfinite(self.end) and self.end > self.start):
-            problems.append(
-                f"journey from start = {self.start:g} m to end = {self.end:g} m: the end must lie"
-                " beyond the start"
+    def problems(self, key: Naming) -> list[str]:
+        """A journey that leads nowhere, fades in to its end, or has too large a time step."""
+        distance = self.end - self.start
+        if distance <= 0.0:
+            return [
+                complaint(key("end"), self.end, f"must be beyond {key('start')}, {self.start:g} m")
+            ]
+        problems = []
+        if self.fade_in >= distance:
+            allowed = f"must be below the distance run, {distance:g} m"
+            problems.append(complaint(key("fade_in"), self.fade_in, allowed))
+        return problems + self.problems_of_step(key("time_step"), self.time_step)
+
+    def problems_of_step(self, key: str, step: float) -> list[str]:
+        """Complaint about a time step [s] that is called `key`, if it is too large."""
+        duration = (self.end - self.start) / self.speed
+        if step <= duration / 2:
+            return []
+        return [
+            complaint(
+                key, step, f"must be at most half the duration of the run, {duration / 2:.3g} s"
             )
-        elif not problems and self.n_steps < 1:
-            problems.append(
-                f"journey time_step = {self.time_step:g} s: longer than the whole run"
-                f" of {(self.end - self.start) / self.speed:g} s"
-            )
-        raise_if(problems)
+        ]
 
     @property
     def n_steps(self) -> int:
@@ -68,18 +89,30 @@ class Journey:
         """X of each wheel at each state, (n_steps + 1, n_wheels) m."""
         return self.start + self.speed * self.times[:, None] + np.asarray(offsets)[None, :]
 
-    def problems_on(self, track: Track, vehicle: Vehicle) -> list[str]:
-        """Everything that makes this journey impossible on that track with that vehicle."""
-        problems = []
-        rear = self.start + float(np.min(vehicle.wheel_offsets))
-        if rear < 0.0 or self.end > track.length * (1.0 + 1e-12):
-            problems.append(
-                f"wheels run from {rear:g} m to {self.end:g} m: must stay on the track,"
-                f" 0 to {track.length:g} m"
-            )
-        problems += [
-            f"journey station at {x:g} m: must lie on the track, 0 to {track.length:g} m"
-            for x in self.stations
-            if not 0.0 <= x <= track.length
+    def problems_on(
+        self, track: Track, vehicle: Vehicle | None = None, key: Naming | None = None
+    ) -> list[str]:
+        """Everything that makes this journey impossible on that track with that vehicle.
+
+        Parameters
+        ----------
+        track : Track
+        vehicle : Vehicle, optional
+            All its wheels must stay on the track; one wheel without it.
+        key : callable, optional
+            From a field to how the caller knows it.
+        """
+        key = key or (lambda name: f"Journey.{name}")
+        where = f"must lie on the track, 0 to {track.length:g} m"
+        points = {key("start"): self.start, key("end"): self.end}
+        points |= {f"{key('stations')}.{i}": x for i, x in enumerate(self.stations)}
+        problems = [
+            complaint(name, x, where)
+            for name, x in points.items()
+            if x > track.length * (1.0 + 1e-12)
         ]
+        behind = 0.0 if vehicle is None else -float(np.min(vehicle.wheel_offsets))
+        if self.start < behind:
+            allowed = f"must leave room for the last wheel, {behind:g} m behind the first"
+            problems.append(complaint(key("start"), self.start, allowed))
         return problems

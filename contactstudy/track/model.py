@@ -6,12 +6,21 @@ and J. H. Lin, J. Sound Vib. 270 (2004) 673, per rail seat.
 """
 
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import Annotated, Literal
 
 import numpy as np
 
-from contactstudy.track.rail import Direction, Rail
-from contactstudy.validation import not_negative, one_of, positive, raise_if
+from contactstudy.track.rail import Direction, GivenRail, Rail
+from contactstudy.validation import (
+    Above,
+    AtLeast,
+    Key,
+    Naming,
+    Parameters,
+    Unit,
+    Variants,
+    complaint,
+)
 
 Ends = Literal["clamped", "pinned", "free"]
 
@@ -19,8 +28,13 @@ NOMINAL_BAY = 0.6
 """m, length that is called a bay where the track has no discrete supports."""
 
 
+def whole(ratio: float) -> bool:
+    """Whether a ratio of lengths that were given in decimal is a whole number."""
+    return ratio > 0.5 and abs(ratio - round(ratio)) <= 1e-9 * ratio
+
+
 @dataclass(frozen=True)
-class Ballast:
+class Ballast(Parameters):
     """Spring and damper from each half sleeper to the ground.
 
     Parameters
@@ -31,22 +45,22 @@ class Ballast:
         The same for lateral motion of the sleeper.
     """
 
-    stiffness: float = 137.75e6
-    damping: float = 58.8e3
-    lateral_stiffness: float = 50e6
-    lateral_damping: float = 40e3
-
-    def __post_init__(self) -> None:
-        raise_if(
-            positive("ballast stiffness", self.stiffness, "N/m")
-            + not_negative("ballast damping", self.damping, "N s/m")
-            + positive("ballast lateral_stiffness", self.lateral_stiffness, "N/m")
-            + not_negative("ballast lateral_damping", self.lateral_damping, "N s/m")
-        )
+    stiffness: Annotated[
+        float, Unit("N/m"), Above(0), Key("ballast_stiffness"), "ballast, per rail seat"
+    ] = 137.75e6
+    damping: Annotated[
+        float, Unit("N*s/m"), AtLeast(0), Key("ballast_damping"), "ballast, per rail seat"
+    ] = 58.8e3
+    lateral_stiffness: Annotated[
+        float, Unit("N/m"), Above(0), Key("lateral_ballast_stiffness"), "ballast, lateral motion"
+    ] = 50e6
+    lateral_damping: Annotated[
+        float, Unit("N*s/m"), AtLeast(0), Key("lateral_ballast_damping"), "ballast, lateral motion"
+    ] = 40e3
 
 
 @dataclass(frozen=True)
-class Slab:
+class Slab(Parameters):
     """A continuous slab: Euler beam with free ends on a uniform viscoelastic bed.
 
     A half sleeper, if any, is cast into the slab: its mass is lumped there.
@@ -63,28 +77,25 @@ class Slab:
         The same for lateral motion.
     """
 
-    bending_stiffness: float = 60e6
-    mass_per_length: float = 730.0
-    stiffness: float = 625e6
-    damping: float = 83e3
-    lateral_bending_stiffness: float = 1e9
-    lateral_stiffness: float = 300e6
-    lateral_damping: float = 83e3
-
-    def __post_init__(self) -> None:
-        raise_if(
-            positive("slab bending_stiffness", self.bending_stiffness, "N m^2")
-            + positive("slab mass_per_length", self.mass_per_length, "kg/m")
-            + positive("slab stiffness", self.stiffness, "N/m^2")
-            + not_negative("slab damping", self.damping, "N s/m^2")
-            + positive("slab lateral_bending_stiffness", self.lateral_bending_stiffness, "N m^2")
-            + positive("slab lateral_stiffness", self.lateral_stiffness, "N/m^2")
-            + not_negative("slab lateral_damping", self.lateral_damping, "N s/m^2")
-        )
+    bending_stiffness: Annotated[
+        float, Unit("N*m^2"), Above(0), Key("slab_bending_stiffness"), "EI of half the slab"
+    ] = 60e6
+    mass_per_length: Annotated[
+        float, Unit("kg/m"), Above(0), Key("slab_mass_per_length"), "half the slab"
+    ] = 730.0
+    stiffness: Annotated[
+        float, Unit("N/m^2"), Above(0), Key("slab_bed_stiffness"), "bed under half the slab"
+    ] = 625e6
+    damping: Annotated[
+        float, Unit("N*s/m^2"), AtLeast(0), Key("slab_bed_damping"), "bed under half the slab"
+    ] = 83e3
+    lateral_bending_stiffness: Annotated[float, Unit("N*m^2"), Above(0), Key("")] = 1e9
+    lateral_stiffness: Annotated[float, Unit("N/m^2"), Above(0), Key("")] = 300e6
+    lateral_damping: Annotated[float, Unit("N*s/m^2"), AtLeast(0), Key("")] = 83e3
 
 
 @dataclass(frozen=True)
-class DiscreteSupports:
+class DiscreteSupports(Parameters):
     """Rail seats at X = j * spacing: pad, half sleeper, and the layer below.
 
     The pad acts on the average rail displacement over its footprint, which is cut off where the
@@ -105,35 +116,30 @@ class DiscreteSupports:
         Per seat, for lateral motion of the rail against the sleeper [N/m], [N s/m].
     """
 
-    spacing: float = 0.6
-    pad_stiffness: float = 65e6
-    pad_damping: float = 75e3
-    pad_length: float = 0.16
-    sleeper_mass: float = 125.5
-    layer: Ballast | Slab = field(default_factory=Ballast)
-    lateral_pad_stiffness: float = 20e6
-    lateral_pad_damping: float = 50e3
+    spacing: Annotated[float, Unit("m"), Above(0), "distance of the supports"] = 0.6
+    pad_stiffness: Annotated[float, Unit("N/m"), Above(0), "rail pad"] = 65e6
+    pad_damping: Annotated[float, Unit("N*s/m"), AtLeast(0), "rail pad"] = 75e3
+    pad_length: Annotated[
+        float, Unit("m"), AtLeast(0), "length of the pad along the rail; 0 is a point"
+    ] = 0.16
+    sleeper_mass: Annotated[float, Unit("kg"), AtLeast(0), "half a sleeper"] = 125.5
+    layer: Annotated[
+        Ballast | Slab,
+        Variants("layer", {"ballast": Ballast, "slab": Slab}, "what lies below the sleepers"),
+    ] = field(default_factory=Ballast)
+    lateral_pad_stiffness: Annotated[float, Unit("N/m"), Above(0), "rail pad, lateral"] = 20e6
+    lateral_pad_damping: Annotated[float, Unit("N*s/m"), AtLeast(0), "rail pad, lateral"] = 50e3
 
-    def __post_init__(self) -> None:
-        problems = (
-            positive("support spacing", self.spacing, "m")
-            + positive("pad_stiffness", self.pad_stiffness, "N/m")
-            + not_negative("pad_damping", self.pad_damping, "N s/m")
-            + not_negative("pad_length", self.pad_length, "m")
-            + not_negative("sleeper_mass", self.sleeper_mass, "kg")
-            + positive("lateral_pad_stiffness", self.lateral_pad_stiffness, "N/m")
-            + not_negative("lateral_pad_damping", self.lateral_pad_damping, "N s/m")
-        )
-        if self.pad_length >= self.spacing > 0.0:
-            problems.append(
-                f"pad_length = {self.pad_length:g} m: must be below the support spacing,"
-                f" {self.spacing:g} m"
-            )
-        raise_if(problems)
+    def problems(self, key: Naming) -> list[str]:
+        """Pads that overlap."""
+        if self.pad_length < self.spacing:
+            return []
+        allowed = f"must be below the support spacing, {self.spacing:g} m"
+        return [complaint(key("pad_length"), self.pad_length, allowed)]
 
 
 @dataclass(frozen=True)
-class WinklerFoundation:
+class WinklerFoundation(Parameters):
     """Uniform springs and dampers under the rail.
 
     Parameters
@@ -144,20 +150,14 @@ class WinklerFoundation:
         The same for lateral motion; as vertical when not given.
     """
 
-    stiffness: float
-    damping: float = 0.0
-    lateral_stiffness: float | None = None
-    lateral_damping: float | None = None
-
-    def __post_init__(self) -> None:
-        problems = positive("foundation stiffness", self.stiffness, "N/m^2") + not_negative(
-            "foundation damping", self.damping, "N s/m^2"
-        )
-        if self.lateral_stiffness is not None:
-            problems += positive("foundation lateral_stiffness", self.lateral_stiffness, "N/m^2")
-        if self.lateral_damping is not None:
-            problems += not_negative("foundation lateral_damping", self.lateral_damping, "N s/m^2")
-        raise_if(problems)
+    stiffness: Annotated[
+        float, Unit("N/m^2"), Above(0), Key("foundation_stiffness"), "uniform, per length"
+    ] = 30e6
+    damping: Annotated[
+        float, Unit("N*s/m^2"), AtLeast(0), Key("foundation_damping"), "uniform, per length"
+    ] = 0.0
+    lateral_stiffness: Annotated[float | None, Unit("N/m^2"), Above(0), Key("")] = None
+    lateral_damping: Annotated[float | None, Unit("N*s/m^2"), AtLeast(0), Key("")] = None
 
     def values(self, direction: Direction = "Z") -> tuple[float, float]:
         """Stiffness [N/m^2] and damping [N s/m^2] per length in the direction given."""
@@ -181,7 +181,7 @@ Support = DiscreteSupports | WinklerFoundation | None
 
 
 @dataclass(frozen=True)
-class Track:
+class Track(Parameters):
     """One rail on its supports, from X = 0 to X = length.
 
     Parameters
@@ -195,25 +195,30 @@ class Track:
         Condition of the rail at both ends.
     """
 
-    rail: Rail = field(default_factory=Rail)
-    support: Support = field(default_factory=DiscreteSupports)
-    length: float = 36.0
-    ends: Ends = "clamped"
+    rail: Annotated[
+        Rail, Variants("rail", {"60E1": Rail, "given": GivenRail}, "profile, or given by values")
+    ] = field(default_factory=Rail)
+    support: Annotated[
+        Support,
+        Variants(
+            "support",
+            {"discrete": DiscreteSupports, "winkler": WinklerFoundation, "none": None},
+            "what carries the rail",
+        ),
+    ] = field(default_factory=DiscreteSupports)
+    length: Annotated[float, Unit("m"), Above(0), "length of the track"] = 36.0
+    ends: Annotated[Ends, "both ends of the rail"] = "clamped"
 
-    def __post_init__(self) -> None:
-        problems = positive("track length", self.length, "m") + one_of(
-            "track ends", self.ends, ("clamped", "pinned", "free")
-        )
-        if isinstance(self.support, DiscreteSupports) and not problems:
-            bays = self.length / self.support.spacing
-            if round(bays) < 1 or abs(bays - round(bays)) > 1e-9 * bays:
-                problems.append(
-                    f"track length = {self.length:g} m: must be a whole number of support"
-                    f" spacings of {self.support.spacing:g} m"
-                )
+    def problems(self, key: Naming) -> list[str]:
+        """Supports that do not fit the length, or do not hold the rail."""
         if self.support is None and self.ends == "free":
-            problems.append("track ends = 'free' without support: nothing would hold the rail")
-        raise_if(problems)
+            return [complaint(key("ends"), "free", "nothing holds a rail without support")]
+        if isinstance(self.support, DiscreteSupports):
+            spacing = self.support.spacing
+            if not whole(self.length / spacing):
+                allowed = f"must be a whole number of support spacings of {spacing:g} m (m)"
+                return [complaint(key("length"), self.length, allowed)]
+        return []
 
     @property
     def n_bays(self) -> int:

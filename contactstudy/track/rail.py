@@ -1,10 +1,19 @@
 """The rail as a beam sees it: material and integrals of the cross-section."""
 
-from dataclasses import dataclass
-from typing import Literal
+from dataclasses import dataclass, field
+from typing import Annotated, Literal
 
 from contactstudy.profiles.section import SectionProperties
-from contactstudy.validation import positive, raise_if
+from contactstudy.validation import (
+    Above,
+    AtLeast,
+    AtMost,
+    Key,
+    Naming,
+    Parameters,
+    Unit,
+    positive,
+)
 
 Direction = Literal["Z", "Y"]
 
@@ -20,7 +29,7 @@ NOMINAL_60E1 = SectionProperties(
 
 
 @dataclass(frozen=True)
-class Rail:
+class Rail(Parameters):
     """A rail: its material and the integrals of its cross-section.
 
     Parameters
@@ -38,60 +47,16 @@ class Rail:
     """
 
     section: SectionProperties = NOMINAL_60E1
-    youngs_modulus: float = 210e9
-    poisson_ratio: float = 0.3
-    density: float = 7850.0
+    youngs_modulus: Annotated[float, Unit("Pa"), Above(0), "Young's modulus"] = 210e9
+    poisson_ratio: Annotated[float, AtLeast(0), AtMost(0.49), "Poisson's ratio"] = 0.3
+    density: Annotated[float, Unit("kg/m^3"), Above(0), "density of the rail's steel"] = 7850.0
     profile_name: str | None = "60E1"
 
-    def __post_init__(self) -> None:
-        section = self.section
-        problems = (
-            positive("rail youngs_modulus", self.youngs_modulus, "N/m^2")
-            + positive("rail density", self.density, "kg/m^3")
-            + positive("rail section area", section.area, "m^2")
-            + positive("rail section second_moment_y", section.second_moment_y, "m^4")
-            + positive("rail section second_moment_z", section.second_moment_z, "m^4")
-            + positive("rail section shear_coefficient_z", section.shear_coefficient_z)
-            + positive("rail section shear_coefficient_y", section.shear_coefficient_y)
-        )
-        if not -1.0 < self.poisson_ratio < 0.5:
-            problems.append(
-                f"rail poisson_ratio = {self.poisson_ratio:g}: must lie between -1 and 0.5"
-            )
-        raise_if(problems)
-
-    @classmethod
-    def from_values(
-        cls,
-        bending_stiffness: float,
-        mass_per_length: float,
-        *,
-        area: float = 76.70e-4,
-        shear_coefficient: float = 0.4,
-        youngs_modulus: float = 210e9,
-        poisson_ratio: float = 0.3,
-    ) -> "Rail":
-        """Make a rail (or any beam) from EI [N m^2] and mass per length [kg/m].
-
-        Both bending planes get the same EI. The area [m^2] only matters to Timoshenko's theory
-        (shear stiffness and rotary inertia).
-        """
-        second_moment = bending_stiffness / youngs_modulus
-        section = SectionProperties(
-            area=area,
-            second_moment_y=second_moment,
-            second_moment_z=second_moment,
-            centroid_z=0.0,
-            shear_coefficient_z=shear_coefficient,
-            shear_coefficient_y=shear_coefficient,
-        )
-        return cls(
-            section=section,
-            youngs_modulus=youngs_modulus,
-            poisson_ratio=poisson_ratio,
-            density=mass_per_length / area,
-            profile_name=None,
-        )
+    def problems(self, key: Naming) -> list[str]:
+        """Integrals that no section has."""
+        names = ("area", "second_moment_y", "second_moment_z", "shear_coefficient_z",
+                 "shear_coefficient_y")  # fmt: skip
+        return [p for n in names for p in positive(f"rail section {n}", getattr(self.section, n))]
 
     @property
     def shear_modulus(self) -> float:
@@ -120,3 +85,54 @@ class Rail:
     def _second_moment(self, direction: Direction) -> float:
         section = self.section
         return section.second_moment_y if direction == "Z" else section.second_moment_z
+
+
+@dataclass(frozen=True)
+class GivenRail(Rail):
+    """A rail, or any beam, given by its stiffness and mass; both bending planes get the same EI.
+
+    Parameters
+    ----------
+    EI : float
+        Bending stiffness [N m^2].
+    mass : float
+        Per length [kg/m].
+    area : float
+        [m^2]; only matters to Timoshenko's theory (shear stiffness and rotary inertia).
+    crown_radius : float
+        Of the running surface across the rail, for Hertz [m].
+    shear_coefficient : float
+    youngs_modulus, poisson_ratio : float
+        As in `Rail`.
+    """
+
+    section: SectionProperties = field(init=False)
+    density: float = field(init=False)
+    profile_name: str | None = field(init=False, default=None)
+    EI: Annotated[
+        float, Unit("N*m^2"), Above(0), Key("bending_stiffness"), "bending stiffness of the rail"
+    ] = 6.4155e6
+    mass: Annotated[
+        float, Unit("kg/m"), Above(0), Key("mass_per_length"), "mass of the rail per length"
+    ] = 60.367
+    area: Annotated[float, Unit("m^2"), Above(0), "area of the rail's section"] = 76.70e-4
+    crown_radius: Annotated[float, Unit("m"), Above(0), "radius of the rail's crown"] = 0.3
+    shear_coefficient: Annotated[float, Above(0), "shear coefficient of the section"] = 0.4
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        second_moment = self.EI / self.youngs_modulus
+        section = SectionProperties(
+            area=self.area,
+            second_moment_y=second_moment,
+            second_moment_z=second_moment,
+            centroid_z=0.0,
+            shear_coefficient_z=self.shear_coefficient,
+            shear_coefficient_y=self.shear_coefficient,
+        )
+        object.__setattr__(self, "section", section)
+        object.__setattr__(self, "density", self.mass / self.area)
+
+    def problems(self, key: Naming) -> list[str]:
+        """Nothing more: the section is made of the values."""
+        return []

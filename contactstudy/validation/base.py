@@ -127,7 +127,7 @@ def check(owner: type, given: Mapping[str, Any], key: Naming) -> tuple[dict[str,
             continue
         value = given[p.name]
         if value is None and p.by is not None:
-            value = p.by.defaults.get(given.get(p.by.decider))
+            value = p.by.defaults.get(given.get(p.by.decider) or "")
         if value is None and p.default is None:
             continue  # its owner fills it in
         if p.variants is not None:

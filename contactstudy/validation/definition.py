@@ -2,7 +2,7 @@
 
 import dataclasses
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from functools import cache, cached_property
 from types import NoneType, UnionType
@@ -140,15 +140,17 @@ class Parameter:
         return value
 
 
-@cache
-def parameters(owner: Any) -> tuple[Parameter, ...]:
-    """Parameters of a dataclass (the type): its fields that have metadata of ours."""
+def _parameters(owner: type) -> tuple[Parameter, ...]:
     hints = get_type_hints(owner, include_extras=True)
     return tuple(
         _parameter(field, hints[field.name])
         for field in dataclasses.fields(owner)
         if get_origin(hints[field.name]) is Annotated
     )
+
+
+parameters: Callable[[type], tuple[Parameter, ...]] = cache(_parameters)
+"""Parameters of a dataclass: its fields that have metadata of ours."""
 
 
 def parameter(owner: type, name: str) -> Parameter:

@@ -8,6 +8,7 @@ from contactstudy.track.beam import BeamTrack
 from contactstudy.track.hermite import BeamElement
 from contactstudy.track.model import (
     DiscreteSupports,
+    GivenRail,
     Rail,
     Slab,
     Track,
@@ -137,7 +138,7 @@ def test_slab_and_rail_lifted_together_weigh_and_resist_what_they_should():
 def test_inner_dofs_on_a_foundation_leave_the_exact_solution():
     EI, k, x = 6.4155e6, 30e6, 18.07
     beta = (k / (4 * EI)) ** 0.25
-    track = Track(Rail.from_values(EI, 60.0), WinklerFoundation(k), length=36.0)
+    track = Track(GivenRail(EI=EI, mass=60.0), WinklerFoundation(k), length=36.0)
     errors = [
         static_deflection(BeamTrack(track, "euler", 1, on), x, x) / (beta / (2 * k)) - 1
         for on in (False, True)
@@ -148,7 +149,7 @@ def test_inner_dofs_on_a_foundation_leave_the_exact_solution():
 def test_ends():
     EI, L = 2.1e7, 6.0
     for ends, coefficient in (("pinned", 48.0), ("clamped", 192.0)):
-        beam = BeamTrack(Track(Rail.from_values(EI, 78.5), None, L, ends), elements_per_bay=1)
+        beam = BeamTrack(Track(GivenRail(EI=EI, mass=78.5), None, L, ends), elements_per_bay=1)
         exact = L**3 / (coefficient * EI)
         assert static_deflection(beam, L / 2, L / 2) == pytest.approx(exact, rel=1e-10)
         dofs, weights = beam.rail_rows(np.array([0.0, L]))

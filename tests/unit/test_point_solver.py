@@ -14,7 +14,7 @@ from contactstudy.track.model import Rail, Track
 from contactstudy.vehicle import Vehicle, bare_wheel, train, wheel_column
 
 TRACK = Track(length=9.0)
-SHORT = Journey(3.0, 3.5, 80.0, 1e-4)
+SHORT = Journey(3.0, 3.5, 80.0, 1e-4, fade_in=0.4)
 ROUGH = HarmonicProfile(np.array([1e-4]), np.array([6.0]), np.array([0.2]))
 
 
@@ -85,7 +85,7 @@ def test_two_wheels_in_one_element_add_up():
 @pytest.mark.parametrize("law", [LinearSpring(1e9), HertzSpring(9.25e10), RigidContact()])
 def test_static_start_of_a_vehicle_with_several_wheels(law):
     # the wheels stand at different places of a bay; the frame's springs share the difference
-    journey = Journey(5.55, 5.65, 80.0, 1e-4)
+    journey = Journey(5.55, 5.65, 80.0, 1e-4, fade_in=0.0)
     run = point_contact(TRACK, bogie(), SmoothRail(), journey, law=law, local_compliance=True)
     forces = run.contact_force.isel(time=0).values
     assert forces.sum() == pytest.approx(1.2e5, rel=1e-10)
@@ -107,7 +107,7 @@ def test_static_start_where_the_springs_are_strained():
         dof_names=("wheel 1", "wheel 2", "frame"),
     )
     run = point_contact(
-        TRACK, frame, SmoothRail(), Journey(5.4, 5.5, 80.0, 1e-4), law=RigidContact()
+        TRACK, frame, SmoothRail(), Journey(5.4, 5.5, 80.0, 1e-4, fade_in=0.0), law=RigidContact()
     )
     force, z = run.contact_force.isel(time=0).values, run.wheel_displacement.isel(time=0).values
     assert force.sum() == pytest.approx(1.2e5, rel=1e-9)
@@ -174,14 +174,16 @@ def test_every_problem_of_a_call_is_reported_at_once():
             TRACK,
             wheel_column(),
             SmoothRail(),
-            Journey(3.0, 12.0, stations=(-1.0,)),
+            Journey(3.0, 12.0, stations=(9.5,)),
             law=RigidContact(),
             rail_theory="rayleigh",
             elements_per_bay=0,
             integrator=average_acceleration(),
         )
     text = str(caught.value)
-    for part in ("rayleigh", "elements_per_bay = 0", "3 m to 12 m", "station at -1", "damping"):
+    on_track = "must lie on the track, 0 to 9 m"
+    for part in ("rayleigh", "elements_per_bay = 0", f"end = 12.0: {on_track}",
+                 f"stations.0 = 9.5: {on_track}", "damping"):  # fmt: skip
         assert part in text
     assert len(caught.value.problems) == 5
     with pytest.raises(InputError, match="Hertz's law is vertical only"):
@@ -192,19 +194,22 @@ def test_every_problem_of_a_call_is_reported_at_once():
         point_contact(TRACK, wheel_column(), SmoothRail(), SHORT, law=1e9)
     # the trailing wheel counts too
     pair = train([wheel_column()] * 2, [0.0, -3.5])
-    with pytest.raises(InputError, match=r"from -0\.5 m to 5 m: must stay on the track, 0 to 9 m"):
-        point_contact(TRACK, pair, SmoothRail(), Journey(3.0, 5.0), law=LinearSpring(1e9))
+    with pytest.raises(InputError, match=r"start = 3.0: must leave room .* 3.5 m behind"):
+        point_contact(
+            TRACK, pair, SmoothRail(), Journey(3.0, 5.0, fade_in=0.0), law=LinearSpring(1e9)
+        )
 
 
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        ({"start": 5.0, "end": 5.0}, "must lie beyond the start"),
-        ({"start": 30.0, "end": 6.0}, "must lie beyond the start"),
-        ({"time_step": 0.0}, "time_step = 0 s"),
-        ({"speed": -1.0}, "speed = -1 m/s"),
-        ({"fade_in": -1.0}, "fade_in = -1 m"),
-        ({"time_step": 10.0}, "longer than the whole run"),
+        ({"start": 5.0, "end": 5.0}, "must be beyond Journey.start"),
+        ({"start": 30.0, "end": 6.0}, "must be beyond Journey.start"),
+        ({"time_step": 0.0}, "time_step = 0.0: must be above 0 s"),
+        ({"speed": -1.0}, "speed = -1.0: must be above 0 m/s"),
+        ({"fade_in": -1.0}, "fade_in = -1.0: must be at least 0 m"),
+        ({"time_step": 10.0}, "half the duration of the run"),
+        ({"stations": (-1.0,)}, "stations.0 = -1.0: must be at least 0 m"),
     ],
 )
 def test_impossible_journeys(arguments, message):
@@ -230,5 +235,5 @@ def test_an_irregularity_that_is_not_a_number_is_reported_with_its_place():
 def test_a_beam_that_nothing_holds_is_reported():
     track = Track(Rail(), None, 9.0, "pinned")
     point_contact(track, bare_wheel(1.0, 1.0), SmoothRail(), SHORT, law=LinearSpring(1e6))
-    with pytest.raises(InputError, match="nothing would hold"):
+    with pytest.raises(InputError, match="nothing holds"):
         Track(Rail(), None, 9.0, "free")

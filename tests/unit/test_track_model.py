@@ -5,6 +5,7 @@ from contactstudy.exceptions import InputError
 from contactstudy.track.model import (
     Ballast,
     DiscreteSupports,
+    GivenRail,
     Rail,
     Slab,
     Track,
@@ -20,8 +21,8 @@ def test_nominal_rail_has_the_tabulated_values():
     assert rail.shear_modulus == pytest.approx(80.77e9, rel=1e-4)
 
 
-def test_rail_from_values_gives_them_back():
-    rail = Rail.from_values(2.1e7, 78.5, area=0.01, shear_coefficient=0.5)
+def test_a_given_rail_gives_them_back():
+    rail = GivenRail(EI=2.1e7, mass=78.5, area=0.01, shear_coefficient=0.5)
     assert rail.bending_stiffness() == pytest.approx(2.1e7)
     assert rail.bending_stiffness("Y") == pytest.approx(2.1e7)
     assert rail.mass_per_length == pytest.approx(78.5)
@@ -45,16 +46,26 @@ def test_winkler_values_by_direction():
     ("make", "messages"),
     [
         (lambda: Track(length=36.1), ["whole number of support spacings"]),
-        (lambda: Track(length=-1.0, ends="glued"), ["track length = -1 m", "'glued'"]),
-        (lambda: Track(support=None, ends="free"), ["nothing would hold the rail"]),
+        (lambda: Track(length=-1.0, ends="glued"), ["length = -1.0: must be above 0 m", '"glued"']),
+        (lambda: Track(support=None, ends="free"), ["nothing holds a rail without support"]),
         (
             lambda: DiscreteSupports(pad_stiffness=-65e6, pad_damping=float("nan"), spacing=0.0),
-            ["pad_stiffness = -6.5e+07", "pad_damping = nan", "spacing = 0 m"],
+            [
+                "pad_stiffness = -65000000.0: must be above 0",
+                "pad_damping = nan",
+                "spacing = 0.0",
+            ],
         ),
-        (lambda: DiscreteSupports(pad_length=0.6), ["pad_length = 0.6 m: must be below"]),
-        (lambda: Ballast(stiffness=0.0, damping=-1.0), ["ballast stiffness", "ballast damping"]),
-        (lambda: Slab(mass_per_length=0.0), ["slab mass_per_length"]),
-        (lambda: WinklerFoundation(-1.0, lateral_damping=-2.0), ["stiffness = -1", "lateral"]),
+        (
+            lambda: DiscreteSupports(pad_length=0.6),
+            ["pad_length = 0.6: must be below the support spa"],
+        ),
+        (lambda: Ballast(stiffness=0.0, damping=-1.0), ["Ballast.stiffness", "Ballast.damping"]),
+        (lambda: Slab(mass_per_length=0.0), ["Slab.mass_per_length = 0.0"]),
+        (
+            lambda: WinklerFoundation(-1.0, lateral_damping=-2.0),
+            ["n.stiffness = -1", "lateral"],
+        ),
         (lambda: Rail(youngs_modulus=0.0, poisson_ratio=0.7), ["youngs_modulus", "poisson_ratio"]),
     ],
 )

@@ -73,7 +73,7 @@ def test_mean_contact_force_is_the_static_load():
 def test_supports_carry_the_static_load():
     track = Track(length=18.0, ends="free")
     assembly = Assembly(BeamTrack(track), wheel_column())
-    journey = Journey(9.1, 9.2, time_step=1e-4)
+    journey = Journey(9.1, 9.2, time_step=1e-4, fade_in=0.0)
     coupling, r = point_coupling(assembly, SmoothRail(), journey, HertzSpring(9.25e10))
     states = []
     run(

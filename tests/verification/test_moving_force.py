@@ -9,7 +9,7 @@ from contactstudy.contact.laws import MovingForce
 from contactstudy.irregularity import SmoothRail
 from contactstudy.solvers.journey import Journey
 from contactstudy.solvers.point import point_contact
-from contactstudy.track.model import Rail, Track
+from contactstudy.track.model import GivenRail, Track
 from contactstudy.vehicle import bare_wheel
 
 EI, MASS, LENGTH, FORCE = 2.1e7, 78.5, 25.0, 1e3
@@ -18,7 +18,7 @@ CRITICAL = math.pi / LENGTH * math.sqrt(EI / MASS)
 
 def midspan(speed, steps=4000):
     """Time and downward midspan displacement while the force is on the beam."""
-    track = Track(Rail.from_values(EI, MASS), support=None, length=LENGTH, ends="pinned")
+    track = Track(GivenRail(EI=EI, mass=MASS), support=None, length=LENGTH, ends="pinned")
     journey = Journey(0.0, LENGTH, speed, LENGTH / speed / steps, stations=(0.5 * LENGTH,))
     run = point_contact(
         track,

@@ -7,7 +7,7 @@ import pytest
 import scipy.linalg
 
 from contactstudy.track.beam import BeamTrack
-from contactstudy.track.model import Rail, Track
+from contactstudy.track.model import GivenRail, Track
 
 # the source does not state the area; steel of 7850 kg/m^3 makes it 76.9 cm^2
 EI, MASS, DENSITY, SPACING, KAPPA, SHEAR = 6.4155e6, 60.367, 7850.0, 0.6, 0.4, 77e9
@@ -29,9 +29,9 @@ def exact(theory):
 
 
 def computed(theory, elements, compliance):
-    rail = Rail.from_values(
-        EI,
-        MASS,
+    rail = GivenRail(
+        EI=EI,
+        mass=MASS,
         area=AREA,
         shear_coefficient=KAPPA,
         poisson_ratio=210e9 / (2 * SHEAR) - 1,

@@ -10,7 +10,7 @@ from contactstudy.contact.laws import LinearSpring, MovingForce
 from contactstudy.irregularity import SmoothRail
 from contactstudy.solvers.journey import Journey
 from contactstudy.solvers.point import point_contact
-from contactstudy.track.model import Rail, Track
+from contactstudy.track.model import GivenRail, Track
 from contactstudy.vehicle import bare_wheel
 
 EI, MASS, LENGTH = 2.87e9 * 2.90, 2303.0, 25.0
@@ -19,7 +19,7 @@ LOAD = BODY * 9.81
 
 
 def crossing(law):
-    track = Track(Rail.from_values(EI, MASS), support=None, length=LENGTH, ends="pinned")
+    track = Track(GivenRail(EI=EI, mass=MASS), support=None, length=LENGTH, ends="pinned")
     journey = Journey(0.0, LENGTH, SPEED, LENGTH / SPEED / 9000, stations=(0.5 * LENGTH,))
     return point_contact(
         track, bare_wheel(BODY, LOAD), SmoothRail(), journey, law=law, elements_per_bay=1

@@ -44,7 +44,8 @@ def track(winkler: bool = False) -> SolidTrack:
 
 
 def smooth_run(**changes: object) -> xr.Dataset:
-    arguments: dict = {"irregularity": SmoothRail(), "journey": Journey(1.2, 1.6, time_step=1e-4)}
+    journey = Journey(1.2, 1.6, time_step=1e-4, fade_in=0.0)
+    arguments: dict = {"irregularity": SmoothRail(), "journey": journey}
     return surface_contact(track(), wheel(), wheel_column(), **(arguments | changes))
 
 
@@ -124,7 +125,7 @@ def test_wrong_arguments_are_refused_together() -> None:
             wheel(),
             two,
             SmoothRail(),
-            Journey(1.2, 1.6),
+            Journey(1.2, 1.6, fade_in=0.0),
             penalty=-1.0,
             pressure_at=(3.0,),
         )

@@ -147,7 +147,7 @@ def test_free_wheel_after_an_impulse() -> None:
     # hub and modes on no track, set off by a unit impulse at the tread: exact from the
     # eigenvectors of (K, M), and m_w w' + L . q' stays the impulse
     vehicle = with_wheel_modes(
-        bare_wheel(890.0, 0.0), modes().frequencies, modes().participation, 0.0
+        bare_wheel(890.0, 1.0), modes().frequencies, modes().participation, 0.0
     )
     M, K = vehicle.mass, vehicle.stiffness
     system = LinearSystem(*(sp.csr_array(A) for A in (M, vehicle.damping, K)))
@@ -178,7 +178,7 @@ def test_a_wheel_too_light_for_its_modes_is_refused() -> None:
             wheel(),
             bare_wheel(0.9 * moved, 60e3),
             SmoothRail(),
-            Journey(1.2, 1.6, time_step=1e-4),
+            Journey(1.2, 1.6, time_step=1e-4, fade_in=0.0),
             modes=modes(),
         )
     with pytest.raises(InputError, match="wheel_damping"):

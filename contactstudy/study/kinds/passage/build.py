@@ -28,6 +28,7 @@ from contactstudy.study.kinds.passage.vehicles import vehicle
 from contactstudy.track.model import (
     Ballast,
     DiscreteSupports,
+    GivenRail,
     Rail,
     Slab,
     Support,
@@ -82,9 +83,9 @@ def rail(study: Study) -> Rail:
     table = study.track
     if table.rail != "given":
         return solid_rail(recipe(study))
-    return Rail.from_values(
-        table.bending_stiffness,
-        table.mass_per_length,
+    return GivenRail(
+        EI=table.bending_stiffness,
+        mass=table.mass_per_length,
         area=table.area,
         shear_coefficient=table.shear_coefficient,
         youngs_modulus=table.youngs_modulus,

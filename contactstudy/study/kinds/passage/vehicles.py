@@ -11,12 +11,4 @@ def vehicle(study: Study) -> Vehicle:
     table = study.vehicle
     if table.type == "bare_wheel":
         return bare_wheel(table.wheel_mass, table.static_load)
-    return wheel_column(
-        table.wheel_mass,
-        table.bogie_mass,
-        table.car_mass,
-        table.primary_stiffness,
-        table.primary_damping,
-        table.secondary_stiffness,
-        table.secondary_damping,
-    )
+    return wheel_column(**table.model_dump(exclude={"type", "static_load"}))

@@ -1,8 +1,7 @@
-"""Lumped vehicles: M, C, K, wheel dofs and static wheel loads.
+"""Vehicles as matrices: M, C, K, wheel dofs and static wheel loads.
 
 Displacements are measured from the static equilibrium of the suspensions, so that gravity
-appears only as the constant force -static_load on each wheel dof. Default values are those of
-the Shinkansen S300 (Y. S. Wu and Y. B. Yang, Eng. Struct. 25 (2003) 251), per wheel.
+appears only as the constant force -static_load on each wheel dof.
 """
 
 from collections.abc import Sequence
@@ -10,10 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from contactstudy.validation import not_negative, positive, raise_if
-
-GRAVITY = 9.81
-"""m/s^2."""
+from contactstudy.validation import not_negative, raise_if
 
 
 @dataclass(frozen=True)
@@ -79,79 +75,6 @@ class Vehicle:
     def n_wheels(self) -> int:
         """Number of wheels."""
         return len(self.wheel_dofs)
-
-
-def wheel_column(
-    wheel_mass: float = 890.0,
-    bogie_mass: float = 760.0,
-    car_mass: float = 5219.0,
-    primary_stiffness: float = 0.59e6,
-    primary_damping: float = 19.6e3,
-    secondary_stiffness: float = 0.1325e6,
-    secondary_damping: float = 22.55e3,
-    gravity: float = GRAVITY,
-) -> Vehicle:
-    """Wheel, bogie share and car share above each other.
-
-    Parameters
-    ----------
-    wheel_mass, bogie_mass, car_mass : float
-        Per wheel [kg].
-    primary_stiffness, primary_damping : float
-        Wheel to bogie [N/m], [N s/m].
-    secondary_stiffness, secondary_damping : float
-        Bogie to car [N/m], [N s/m].
-    gravity : float
-        [m/s^2]; the static load is the total weight, 67.4 kN by default.
-
-    Returns
-    -------
-    Vehicle
-        Dofs wheel, bogie, car; one wheel.
-    """
-    raise_if(
-        positive("wheel_mass", wheel_mass, "kg")
-        + positive("bogie_mass", bogie_mass, "kg")
-        + positive("car_mass", car_mass, "kg")
-        + positive("primary_stiffness", primary_stiffness, "N/m")
-        + not_negative("primary_damping", primary_damping, "N s/m")
-        + positive("secondary_stiffness", secondary_stiffness, "N/m")
-        + not_negative("secondary_damping", secondary_damping, "N s/m")
-        + not_negative("gravity", gravity, "m/s^2")
-    )
-
-    def chain(primary: float, secondary: float) -> np.ndarray:
-        return np.array(
-            [
-                [primary, -primary, 0.0],
-                [-primary, primary + secondary, -secondary],
-                [0.0, -secondary, secondary],
-            ]
-        )
-
-    return Vehicle(
-        mass=np.diag([wheel_mass, bogie_mass, car_mass]),
-        damping=chain(primary_damping, secondary_damping),
-        stiffness=chain(primary_stiffness, secondary_stiffness),
-        wheel_dofs=np.array([0]),
-        wheel_offsets=np.zeros(1),
-        static_loads=np.array([(wheel_mass + bogie_mass + car_mass) * gravity]),
-        dof_names=("wheel", "bogie", "car"),
-    )
-
-
-def bare_wheel(mass: float, load: float) -> Vehicle:
-    """Return one wheel of given mass [kg] under a constant load [N] (weight included)."""
-    raise_if(positive("wheel mass", mass, "kg") + not_negative("wheel load", load, "N"))
-    return Vehicle(
-        mass=np.array([[float(mass)]]),
-        damping=np.zeros((1, 1)),
-        stiffness=np.zeros((1, 1)),
-        wheel_dofs=np.array([0]),
-        wheel_offsets=np.zeros(1),
-        static_loads=np.array([float(load)]),
-        dof_names=("wheel",),
-    )
 
 
 def with_wheel_modes(
