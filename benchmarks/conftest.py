@@ -2,6 +2,6 @@
 
 import os
 
-from contactstudy.executor import ONE_THREAD
+from contactstudy.process import ONE_THREAD
 
 os.environ.update(ONE_THREAD)

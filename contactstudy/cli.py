@@ -19,7 +19,7 @@ from rich.console import Console
 
 from contactstudy import __version__
 from contactstudy.exceptions import ContactStudyError
-from contactstudy.executor import ONE_THREAD
+from contactstudy.process import ONE_THREAD
 
 if TYPE_CHECKING:
     from contactstudy.study.kinds.positions.table import PositionsStudy

@@ -1,33 +1,24 @@
-"""Many runs at once, each in a fresh process of its own with one thread.
+"""Tasks through any `concurrent.futures.Executor`: their order, their errors, what they report.
 
-A fresh process makes the peak memory of a run its own and its last bits independent of what ran
-before. Workers never see Ctrl-C: it is the parent that ends them.
+By default they run in worker processes with one thread that live on, so that only the first task
+of each pays for the imports. A run's peak memory is its own all the same, and its last bits do
+not depend on what ran before.
 """
 
 from __future__ import annotations
 
-import contextlib
-import multiprocessing
-import os
-import signal
+import queue
 import traceback
 import warnings
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field
-from multiprocessing.connection import Connection, wait
-from multiprocessing.process import BaseProcess
+from collections.abc import Callable, Sequence
+from concurrent.futures import Executor, Future
+from dataclasses import dataclass
 from typing import Any
 
 from contactstudy.exceptions import ContactStudyError, InputError, NumericalError
-
-#: Read by BLAS, OpenMP and numba when they are loaded; a run's last bits must not depend on them.
-ONE_THREAD = {
-    "OMP_NUM_THREADS": "1",
-    "OPENBLAS_NUM_THREADS": "1",
-    "MKL_NUM_THREADS": "1",
-    "VECLIB_MAXIMUM_THREADS": "1",
-    "NUMBA_NUM_THREADS": "1",
-}
+from contactstudy.process import forget_peak_memory
+from contactstudy.reporter import Quiet, Reporter
+from contactstudy.workers import InThisProcess, WorkerDiedError, Workers, report
 
 Progress = Callable[[int, int], None]
 """Called with the steps done and the steps in all."""
@@ -35,7 +26,7 @@ Progress = Callable[[int, int], None]
 
 @dataclass(frozen=True)
 class Task:
-    """One call in a process of its own.
+    """One call.
 
     Attributes
     ----------
@@ -47,12 +38,16 @@ class Task:
         Picklable arguments.
     after : tuple of str
         Names of tasks that must have ended (well or not) before this one starts.
+    here : bool
+        May run in the process at hand, as when it takes less time than to start another one and
+        little memory. They do so when this holds for all tasks.
     """
 
     name: str
     function: Callable[..., Any]
     arguments: tuple[Any, ...] = ()
     after: tuple[str, ...] = ()
+    here: bool = False
 
 
 @dataclass(frozen=True)
@@ -63,20 +58,12 @@ class Outcome:
     error: ContactStudyError | None = None
 
 
-@dataclass
-class _Worker:
-    task: Task
-    process: BaseProcess
-    pipe: Connection
-    outcome: Outcome | None = field(default=None)
-
-
 def run_tasks(
     tasks: Sequence[Task],
     jobs: int = 2,
-    progress: Callable[[str, int, int], None] | None = None,
+    reporter: Reporter | None = None,
     finished: Callable[[str, Outcome], None] | None = None,
-    note: Callable[[str, str], None] | None = None,
+    executor: Executor | None = None,
 ) -> dict[str, Outcome]:
     """Run tasks, `jobs` at a time, in the order given as far as `after` allows.
 
@@ -85,13 +72,13 @@ def run_tasks(
     tasks : sequence of Task
         With distinct names.
     jobs : int
-        Processes at once.
-    progress : callable, optional
-        ``progress(name, done, total)``, called in this process.
+        Tasks at once.
+    reporter : Reporter, optional
+        Told of the beginning, the progress, the warnings and the end of each task.
     finished : callable, optional
-        ``finished(name, outcome)``, called as each task ends.
-    note : callable, optional
-        ``note(name, text)``, called for each warning that a task gives.
+        ``finished(name, outcome)``, called instead of ``reporter.end`` as each task ends.
+    executor : Executor, optional
+        Where they run, which stays open; by default `Workers`, or this process.
 
     Returns
     -------
@@ -105,141 +92,92 @@ def run_tasks(
     """
     if jobs < 1:
         raise InputError(f"jobs = {jobs}: must be a whole number at least 1")
-    waiting, running = list(tasks), list[_Worker]()
-    outcomes: dict[str, Outcome] = {}
+    reporter = reporter or Quiet()
+    events: queue.SimpleQueue[Any] = queue.SimpleQueue()
+
+    def told(name: str, *message: Any) -> None:
+        if len(message) == 1:
+            reporter.note(f"{name}: {message[0]}")
+        else:
+            reporter.progress(name, *message)
+
+    own: Executor | None = None
+    if executor is None:
+        here = all(task.here for task in tasks)
+        executor = own = InThisProcess(lambda m: told(*m)) if here else Workers(jobs, events.put)
+    for task in tasks:
+        reporter.begin(task.name, 0)
+    waiting, running, outcomes = list(tasks), dict[Future[Any], Task](), dict[str, Outcome]()
     try:
         while waiting or running:
-            unfinished = {t.name for t in waiting} | {w.task.name for w in running}
+            unfinished = {task.name for task in [*waiting, *running.values()]}
             ready = [t for t in waiting if not unfinished & set(t.after)]
             for task in ready[: max(0, jobs - len(running))]:
                 waiting.remove(task)
-                running.append(_start(task))
+                future = executor.submit(perform, task)
+                running[future] = task
+                future.add_done_callback(events.put)
             if not running:
                 raise RuntimeError(f"tasks wait for each other: {[t.name for t in waiting]}")
-            for worker in _messages(running, progress, note):
-                running.remove(worker)
-                outcomes[worker.task.name] = outcome = _end(worker)
-                if finished is not None:
-                    finished(worker.task.name, outcome)
+            event = events.get()
+            if not isinstance(event, Future):
+                told(*event)
+                continue
+            name = running.pop(event).name
+            outcomes[name] = outcome = _outcome(name, event)
+            if finished is None:
+                reporter.end(name, outcome.error is None)
+            else:
+                finished(name, outcome)
     finally:
-        for worker in running:
-            worker.process.terminate()
-        for worker in running:
-            worker.process.join(5.0)
-            if worker.process.is_alive():
-                worker.process.kill()
-                worker.process.join()
+        for future in running:
+            future.cancel()
+        if own is not None:
+            own.shutdown(cancel_futures=True)
     return {task.name: outcomes[task.name] for task in tasks}
 
 
-def _start(task: Task) -> _Worker:
-    context = multiprocessing.get_context("spawn")
-    receiver, sender = context.Pipe(duplex=False)
-    process = context.Process(target=_work, args=(sender, task), daemon=True, name=task.name)
-    with _one_thread_environment(), _interrupts_held_back():
-        process.start()
-    sender.close()
-    return _Worker(task, process, receiver)
-
-
-def _messages(
-    running: list[_Worker],
-    progress: Callable[[str, int, int], None] | None,
-    note: Callable[[str, str], None] | None,
-) -> Iterator[_Worker]:
-    """Wait for messages of the workers; yield those that have ended."""
-    pipes = {worker.pipe: worker for worker in running}
-    for pipe in wait(list(pipes), timeout=1.0):
-        assert isinstance(pipe, Connection)
-        worker = pipes[pipe]
-        try:
-            message = pipe.recv()
-        except (EOFError, OSError):  # ended without a word: killed, out of memory
-            yield worker
-            continue
-        if isinstance(message, Outcome):
-            worker.outcome = message
-            yield worker
-        elif isinstance(message, str):
-            if note is not None:
-                note(worker.task.name, message)
-        elif progress is not None:
-            progress(worker.task.name, *message)
-
-
-def _end(worker: _Worker) -> Outcome:
-    worker.process.join()
-    worker.pipe.close()
-    if worker.outcome is not None:
-        return worker.outcome
-    code = worker.process.exitcode
-    return Outcome(
-        error=NumericalError(
-            f"{worker.task.name}: its process ended without a result (exit code {code}); "
-            "most often the machine ran out of memory"
-        )
-    )
-
-
-def _work(pipe: Connection, task: Task) -> None:
-    """Body of a worker process."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
+def perform(task: Task) -> Outcome:
+    """Run a task in the process at hand; what an executor is given."""
     from threadpoolctl import threadpool_limits  # type: ignore[import-untyped]
 
     def progress(done: int, total: int) -> None:
-        pipe.send((done, total))
+        report((task.name, done, total))
 
     def warned(message: Warning | str, category: type[Warning], *_: Any, **__: Any) -> None:
         if issubclass(category, UserWarning):  # others are for developers
-            pipe.send(str(message))
+            report((task.name, str(message)))
 
-    warnings.showwarning = warned
+    forget_peak_memory()
     try:
-        with threadpool_limits(1):
-            outcome = Outcome(value=task.function(*task.arguments, progress))
-    except BrokenPipeError:  # the parent is gone
-        return
+        with warnings.catch_warnings(), threadpool_limits(1):
+            warnings.showwarning = warned
+            return Outcome(value=task.function(*task.arguments, progress))
+    except BrokenPipeError:  # whoever listened is gone
+        raise
     except ContactStudyError as error:
-        outcome = Outcome(error=error)
+        return Outcome(error=error)
     except MemoryError:
-        outcome = Outcome(error=NumericalError(f"{task.name}: out of memory"))
+        return Outcome(error=NumericalError(f"{task.name}: out of memory"))
     except Exception:
-        text = traceback.format_exc()
-        outcome = Outcome(error=ContactStudyError(f"{task.name}: unexpected error\n{text}"))
-    with contextlib.suppress(BrokenPipeError):
-        pipe.send(outcome)
+        return Outcome(error=_unexpected(task.name, traceback.format_exc()))
 
 
-@contextlib.contextmanager
-def _one_thread_environment() -> Iterator[None]:
-    before = {name: os.environ.get(name) for name in ONE_THREAD}
-    os.environ.update(ONE_THREAD)
-    try:
-        yield
-    finally:
-        for name, value in before.items():
-            if value is None:
-                del os.environ[name]
-            else:
-                os.environ[name] = value
+def _outcome(name: str, future: Future[Any]) -> Outcome:
+    """Outcome of a task whose future is done."""
+    error = future.exception()
+    if error is None:
+        outcome: Outcome = future.result()
+        return outcome
+    if isinstance(error, WorkerDiedError):
+        return Outcome(
+            error=NumericalError(
+                f"{name}: its process ended without a result (exit code {error.exit_code}); "
+                "most often the machine ran out of memory"
+            )
+        )
+    return Outcome(error=_unexpected(name, "".join(traceback.format_exception(error))))
 
 
-@contextlib.contextmanager
-def _interrupts_held_back() -> Iterator[None]:
-    """Block SIGINT here, so that a process started meanwhile never gets one.
-
-    A child inherits the mask; without it Ctrl-C in the first tenths of a second, while the child
-    imports, would end it with a traceback. Here the signal only arrives later.
-    """
-    if not hasattr(signal, "pthread_sigmask"):
-        yield
-        return
-    # Started now, because it unblocks SIGINT when it starts.
-    from multiprocessing import resource_tracker
-
-    resource_tracker.ensure_running()
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+def _unexpected(name: str, text: str) -> ContactStudyError:
+    return ContactStudyError(f"{name}: unexpected error\n{text}")

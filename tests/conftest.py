@@ -4,7 +4,7 @@ import os
 
 from hypothesis import settings
 
-from contactstudy.executor import ONE_THREAD
+from contactstudy.process import ONE_THREAD
 
 # as in the program's workers; before NumPy is loaded
 os.environ.update(ONE_THREAD)

@@ -7,11 +7,12 @@ from collections.abc import Mapping
 from contactstudy.exceptions import ContactStudyError, InputError, NumericalError
 from contactstudy.executor import Outcome, Progress, Task, run_tasks
 from contactstudy.files import ensure_writable, remove_unfinished
+from contactstudy.process import peak_memory_mb
 from contactstudy.reporter import Reporter
 from contactstudy.solids.cache import is_cached
 from contactstudy.store import Store
 from contactstudy.study.kinds.passage.build import bodies
-from contactstudy.study.kinds.passage.execution import condense_body, execute_run, peak_memory_mb
+from contactstudy.study.kinds.passage.execution import condense_body, execute_run
 from contactstudy.study.kinds.passage.schema import Study
 from contactstudy.study.plan import Plan
 
@@ -51,20 +52,8 @@ def compute(plan: Plan, jobs: int, reporter: Reporter) -> None:
     # The long ones first, so that the short ones fill the gaps.
     tasks.sort(key=lambda pair: not pair[0].needs_solid)
     everything = [*condensing.values(), *(task for _, task in tasks)]
-    for task in everything:
-        reporter.begin(task.name, 0)
-
-    def ended(name: str, outcome: Outcome) -> None:
-        reporter.end(name, outcome.error is None)
-
     try:
-        outcomes = run_tasks(
-            everything,
-            jobs,
-            reporter.progress,
-            ended,
-            lambda name, text: reporter.note(f"{name}: {text}"),
-        )
+        outcomes = run_tasks(everything, jobs, reporter)
     finally:
         for path in paths:  # what a worker was writing when it was ended
             remove_unfinished(path.parent, path.stem)

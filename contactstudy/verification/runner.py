@@ -64,25 +64,14 @@ def run_cases(
         else:
             outcomes[case.name] = found
             reporter.note(summary(found))
-    for case in todo:
-        reporter.begin(case.name, 1)
 
-    def finished(name: str, outcome: Outcome) -> None:
-        outcomes[name] = outcome
+    def finished(name: str, ended: sweep.Outcome) -> None:
+        outcomes[name] = outcome = _of_task(name, ended)
         reporter.end(name, outcome.good)
         reporter.note(summary(outcome))
 
-    if jobs == 1:
-        for case in todo:
-            reporter.progress(case.name, 0, 1)
-            finished(case.name, _run(case, out_dir))
-    else:
-        run_tasks(
-            [Task(case.name, _task, (case, out_dir)) for case in todo],
-            jobs,
-            reporter.progress,
-            lambda name, ended: finished(name, _of_task(name, ended)),
-        )
+    tasks = [Task(case.name, _task, (case, out_dir), here=jobs == 1) for case in todo]
+    run_tasks(tasks, jobs, reporter, finished)
     return [outcomes[case.name] for case in cases]
 
 

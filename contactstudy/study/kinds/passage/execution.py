@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import sys
-from pathlib import Path
 from typing import Any
 
 import xarray as xr
@@ -79,22 +77,3 @@ def _surface(study: Study, run: str, table: SurfaceRun, progress: Progress | Non
 def condense_body(body: Body[Any], progress: Progress | None = None) -> None:
     """Condense a body into the cache."""
     cached(body)
-
-
-def peak_memory_mb() -> float | None:
-    """Peak resident memory of this process so far, in MB (1e6 bytes); None where unknown.
-
-    On Linux from ``/proc``: there ``getrusage`` also counts what the process that started this
-    one had in memory at that moment.
-    """
-    try:
-        status = Path("/proc/self/status").read_text("utf-8")
-        return int(status.split("VmHWM:")[1].split()[0]) * 1024 / 1e6
-    except (OSError, IndexError, ValueError):
-        pass
-    try:
-        import resource
-    except ImportError:  # not a POSIX system
-        return None
-    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    return float(peak * (1 if sys.platform == "darwin" else 1024) / 1e6)
