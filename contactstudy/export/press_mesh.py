@@ -3,8 +3,7 @@
 Node for node the mesh that `track.unreduced.UnreducedTrack` and `solids.wheel.elastic_wheel`
 compute with; nothing is condensed. Axes are those of the track: X along the rail, Y lateral (to
 the field side), Z up; the origin is the crown in the middle of the rail. The bodies just touch, by
-their smooth profiles: a half model y >= 0 in the origin, whole sections wherever the position of
-the wheel has them touch.
+their smooth profiles, wherever the position of the wheel has them touch.
 """
 
 from dataclasses import dataclass
@@ -15,6 +14,7 @@ from contactstudy.arrays import Array, IntArray
 from contactstudy.exceptions import InputError
 from contactstudy.export.bodies import Body, rail_body, wheel_body
 from contactstudy.geometry.placement import Geometry
+from contactstudy.geometry.pose import Pose
 from contactstudy.profiles import wheel_curve
 from contactstudy.solids.recipe import CellRecipe
 from contactstudy.solids.wheel_recipe import WheelRecipe
@@ -94,7 +94,8 @@ def press_mesh(
     length : float
         Of the rail in m, a whole number of slices.
     geometry : Geometry, optional
-        Position of a whole wheel on a whole rail section, of the very profiles that are meshed.
+        Position of the wheel, of the very profiles that are meshed. A half model is centred and
+        upright and needs none.
 
     Returns
     -------
@@ -123,7 +124,8 @@ def press_mesh(
         )
     raise_if(problems)
     rail, ring = rail_body(cell, slices), wheel_body(wheel)
-    nodes, first = _placed(rail, ring, geometry), len(rail.nodes)
+    nodes = _placed(rail, ring, geometry or Geometry.of(wheel))
+    first = len(rail.nodes)
     elements, tread = ring.elements + first, ring.surface + first
     under = rail.surface[np.abs(rail.nodes[rail.surface, 0]) <= reach + 0.5 * thickness]
     return PressMesh(
@@ -148,35 +150,28 @@ def _contradictions(cell: CellRecipe, wheel: WheelRecipe, geometry: Geometry | N
             f"symmetric: the rail is a {kinds[cell.symmetric]} section, the wheel a "
             f"{kinds[wheel.symmetric]} one; both must be the same"
         )
-    elif cell.symmetric == (geometry is not None):
-        problems.append(
-            "geometry: must be given for whole sections, and only for them; a half model is "
-            "centred and upright"
-        )
+    elif geometry is None and not cell.symmetric:
+        problems.append("geometry: must be given for whole sections")
+    elif geometry is not None and cell.symmetric and geometry.pose != Pose():
+        problems.append("geometry: a half model is centred and upright; mesh whole sections")
     if wheel.rail_profile != cell.profile:
         problems.append(
             f"wheel made for rail {wheel.rail_profile}, rail {cell.profile}: must be the same"
         )
-    if geometry is not None:
-        given = geometry.rail.name, geometry.wheel.name, geometry.radius
-        meshed = cell.profile, wheel_curve(wheel.profile).name, wheel.dimensions.radius
-        problems += [
-            f"{what} = {g}: must be what is meshed, {m}"
-            for what, g, m in zip(
-                ("geometry's rail", "geometry's wheel", "geometry's radius in m"),
-                given,
-                meshed,
-                strict=True,
-            )
-            if g != m
-        ]
-    return problems
-
-
-def _placed(rail: Body, wheel: Body, geometry: Geometry | None) -> Array:
-    """Nodes of both bodies in track axes."""
     if geometry is None:
-        return np.vstack([rail.nodes, wheel.nodes])
+        return problems
+    given = geometry.rail.name, geometry.wheel.name, geometry.radius
+    meshed = cell.profile, wheel_curve(wheel.profile).name, wheel.dimensions.radius
+    what = "geometry's rail", "geometry's wheel", "geometry's radius in m"
+    return problems + [
+        f"{name} = {g}: must be what is meshed, {m}"
+        for name, g, m in zip(what, given, meshed, strict=True)
+        if g != m
+    ]
+
+
+def _placed(rail: Body, wheel: Body, geometry: Geometry) -> Array:
+    """Nodes of both bodies in track axes."""
     pose = geometry.pose
     lower = np.column_stack([rail.nodes[:, 0], pose.track_of_rail(rail.nodes[:, 1:])])
     # the tape circle's lowest point level with the crown, then down to the first touch

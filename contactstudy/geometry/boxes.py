@@ -8,37 +8,6 @@ from contactstudy.exceptions import InputError
 from contactstudy.profiles.curve import ProfileCurve
 
 
-def strip_boxes(mesh: trimesh.Trimesh, y: Array, padding: float, depth: float = 0.0) -> Array:
-    """Boxes around the strips of a running surface between neighbouring lines y.
-
-    A box over the whole crown would be flat and let in every facet of a cylindrical tread;
-    strips follow the curvature.
-
-    Parameters
-    ----------
-    mesh : trimesh.Trimesh
-        Running surface with vertices on the lines.
-    y : ndarray (ny,)
-        Lines in m.
-    padding : float
-        Enlargement on all sides in m.
-    depth : float
-        Further enlargement downwards in m, for facets that already lie below the surface.
-
-    Returns
-    -------
-    ndarray (ny-1, 2, 3)
-        Lower and upper corners.
-    """
-    v = np.asarray(mesh.vertices)
-    boxes = np.empty((len(y) - 1, 2, 3))
-    for k in range(len(y) - 1):
-        strip = v[(v[:, 1] >= y[k] - 1e-9) & (v[:, 1] <= y[k + 1] + 1e-9)]
-        boxes[k] = strip.min(axis=0) - padding, strip.max(axis=0) + padding
-    boxes[:, 0, 2] -= depth
-    return boxes
-
-
 def facet_boxes(
     mesh: trimesh.Trimesh, size: float, padding: float = 0.0, along: float = np.inf
 ) -> Array:

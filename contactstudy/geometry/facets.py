@@ -6,9 +6,9 @@ from numpy.typing import ArrayLike
 
 from contactstudy.arrays import Array
 from contactstudy.geometry.boxes import largest_sagitta
+from contactstudy.geometry.placement import Geometry
 from contactstudy.geometry.pose import PlacedWheel, Pose
 from contactstudy.geometry.search import CandidateList, FacetSearch, grid_mesh
-from contactstudy.geometry.smooth_touch import SmoothTouch, smooth_touch
 from contactstudy.profiles.curve import ProfileCurve
 
 
@@ -68,22 +68,15 @@ def in_track_axes(mesh: trimesh.Trimesh, pose: Pose, wheel: bool) -> trimesh.Tri
     return trimesh.Trimesh(v, mesh.faces, process=False)
 
 
-def placed_candidates(
-    wheel_x: Array,
-    wheel_s: Array,
-    radius: float,
-    rail: ProfileCurve,
-    wheel: ProfileCurve,
-    pose: Pose,
-    touch: SmoothTouch | None = None,
-    padding: float = 20e-6,
+def tread_candidates(
+    geometry: Geometry, wheel_x: Array, wheel_s: Array, padding: float = 20e-6
 ) -> CandidateList:
-    """Search of a wheel's tread facets over an inclined rail, in track axes.
+    """Search of a wheel's tread facets over the rail, in track axes.
 
     Parameters
     ----------
-    wheel_x, wheel_s, radius, rail, wheel, pose, touch
-        As in `contactstudy.geometry.placed.placed_points`; `quads` of the list are its `facet`.
+    geometry, wheel_x, wheel_s
+        As in `contactstudy.geometry.points.contact_points`; `quads` of the list are its `facet`.
     padding : float
         In m.
 
@@ -92,12 +85,12 @@ def placed_candidates(
     CandidateList
         Approach 0 is the first touch of the smooth surfaces.
     """
+    rail, wheel, pose, radius = geometry.rail, geometry.wheel, geometry.pose, geometry.radius
     wheel_x, wheel_s = np.asarray(wheel_x, dtype=float), np.asarray(wheel_s, dtype=float)
-    touch = smooth_touch(PlacedWheel(wheel, radius, pose), rail) if touch is None else touch
     upper = in_track_axes(
         wheel_surface(wheel, radius, wheel_x[:, None], wheel_s[None, :]), pose, wheel=True
     )
-    upper.apply_translation([0.0, 0.0, -touch.travel])
+    upper.apply_translation([0.0, 0.0, -geometry.touch.travel])
     # as far as the wheel reaches, turned; finer than the wheel, so that its boxes are tight
     reach = float(np.abs(upper.vertices[:, 0]).max()) + 1e-3
     first, last = rail.s_range

@@ -12,9 +12,9 @@ import numpy as np
 from contactstudy.arrays import Array, BoolArray, IntArray
 from contactstudy.exceptions import InputError
 from contactstudy.geometry.interpolation import Rows, grid_rows
+from contactstudy.geometry.placement import Geometry
+from contactstudy.geometry.pose import Pose
 from contactstudy.geometry.quadrature import Quadrature, grid_facets, point_line
-from contactstudy.profiles.rail import RailProfile
-from contactstudy.profiles.wheel import WheelProfile
 
 
 @dataclass(frozen=True)
@@ -26,12 +26,12 @@ class ContactPoints:
     Attributes
     ----------
     x, y : ndarray (nx,), (ny,)
-        Grid lines of the points in m; y in the rail's own axes.
+        Grid lines of the points in m; y of their feet in the rail's own axes.
     arc : ndarray (ny,)
-        Arc length of the lines y along the running surface from its crown in m, positive with
+        Arc length of these feet along the running surface from its crown in m, positive with
         y: the coordinate in which the rail's surface nodes are interpolated.
     wheel_x, wheel_y : ndarray (mx,), (my,)
-        Grid lines of the wheel's tread nodes in m.
+        Grid lines of the wheel's tread nodes in m; `wheel_y` is an arc length on its profile.
     gap : ndarray (nx*ny,)
         Distance of the undeformed surfaces along the rail's normal, in m, for zero approach
         (wheel's tape circle just level with the top of rail) and no irregularity.
@@ -116,48 +116,36 @@ class ContactPoints:
         return np.asarray(np.isin(self.facet, facets).any(axis=1))
 
 
-def rolling_drop(x: Array, height: Array, radius: float) -> Array:
-    """Height of the wheel's surface above its tape circle's lowest point, (nx, ny) in m.
-
-    With the local rolling radius ``R_y = R - h(y)`` the surface is
-    ``R - sqrt(R_y^2 - x^2) = h + x^2/(R_y + sqrt(R_y^2 - x^2))``; the second form keeps all
-    digits.
-    """
-    local = radius - height[None, :]
-    square = local**2 - x[:, None] ** 2
-    if np.any(square <= 0) or np.any(local <= 0):
-        raise InputError("wheel: contact points lie outside the rolling circle")
-    return np.asarray(height[None, :] + x[:, None] ** 2 / (local + np.sqrt(square)))
-
-
 def contact_points(
+    geometry: Geometry,
     wheel_x: Array,
-    wheel_y: Array,
-    radius: float,
-    rail: RailProfile,
-    wheel: WheelProfile,
-    symmetric: bool = True,
-    lateral_shift: float = 0.0,
+    wheel_s: Array,
     quadrature: Quadrature = "gauss",
+    symmetric: bool = False,
 ) -> ContactPoints:
     """Contact points of the wheel's tread facets over the rail.
 
+    The gap is the signed distance of the wheel's surface of revolution from the rail's running
+    surface. It is 0 at the first touch of the smooth surfaces, which need not be a point of the
+    grid; a downward travel d from there closes it by ``d normal_z`` to first order.
+
+    The interpolation on the rail is a product of x and arc: its lines are the feet of the
+    wheel's lines where these come nearest to the rail (`PlacedWheel.locus`), and x is counted
+    in the wheel's axes. With yaw both depend on the other coordinate a little (by
+    ``yaw * distance`` from the touch); the gap is exact.
+
     Parameters
     ----------
-    wheel_x, wheel_y : ndarray (mx,), (my,)
-        Grid lines of the wheel's tread nodes in m, in the rail's axes.
-    radius : float
-        Rolling radius at the tape circle in m.
-    rail : RailProfile
-        Gives the running surface and its slope.
-    wheel : WheelProfile
-        Gives the height of the tread; even in y if `symmetric`.
-    symmetric : bool
-        Only y >= 0 is modelled; then ``wheel_y[0]`` must be 0.
-    lateral_shift : float
-        Position of the wheel's tape circle in m (0 if `symmetric`).
+    geometry : Geometry
+        Profiles and position of the bodies.
+    wheel_x, wheel_s : ndarray (mx,), (my,)
+        Grid lines of the wheel's tread nodes: position along the wheel in its own axes, and arc
+        length on its profile [m].
     quadrature : {"gauss", "nodes"}
         Gauss points of the facets, or the tread nodes with nodal areas.
+    symmetric : bool
+        Only y >= 0 is modelled; then ``wheel_s[0]`` must be 0 and the wheel stand centred and
+        upright on an upright rail.
 
     Returns
     -------
@@ -166,43 +154,46 @@ def contact_points(
     Raises
     ------
     InputError
-        If the grid is impossible or reaches beyond the running surface.
+        If the grid is impossible, reaches beyond the wheel's profile, or the bodies do not touch.
     """
+    wheel_x, wheel_s = np.asarray(wheel_x, dtype=float), np.asarray(wheel_s, dtype=float)
+    rail, wheel, radius = geometry.rail, geometry.wheel, geometry.radius
+    s0, s1 = wheel.s_range
     problems = []
-    if not radius > 0:
-        problems.append(f"wheel radius = {radius} m: must be positive")
-    if symmetric and (abs(wheel_y[0]) > 1e-12 or lateral_shift != 0.0):
-        problems.append("symmetric contact: needs wheel_y[0] = 0 and no lateral shift")
-    if np.any(np.diff(wheel_x) <= 0) or np.any(np.diff(wheel_y) <= 0):
+    if symmetric and (abs(wheel_s[0]) > 1e-12 or geometry.pose != Pose()):
+        problems.append(
+            "symmetric contact: needs wheel lines from 0, no lateral shift, and no turn of wheel "
+            "or rail"
+        )
+    if np.any(np.diff(wheel_x) <= 0) or np.any(np.diff(wheel_s) <= 0):
         problems.append("contact grid: lines must increase")
+    if not (wheel_s[0] >= s0 - 1e-12 and wheel_s[-1] <= s1 + 1e-12):
+        problems.append(
+            f"contact grid: s = {wheel_s[0]:.4g} to {wheel_s[-1]:.4g} m reaches beyond the "
+            f"profile {wheel.name}, {s0:.4g} to {s1:.4g} m"
+        )
     if problems:
         raise InputError(problems)
-    along = point_line(wheel_x, quadrature)
-    across = point_line(wheel_y, quadrature)
-    x, y = along.at, across.at
-    top, slope = np.asarray(rail.running_surface(y)), np.asarray(rail.running_slope(y))
-    if not np.all(np.isfinite(top)):
-        raise InputError(
-            f"contact grid from y = {y[0]:.4g} to {y[-1]:.4g} m reaches beyond the running "
-            f"surface of {rail.name}"
-        )
-    # n = (0, -z', 1)/sqrt(1 + z'^2); a vertical distance d is d n_z along the normal
-    normal = 1.0 / np.sqrt(1.0 + slope**2)
-    drop = rolling_drop(x, np.asarray(wheel.height(y - lateral_shift)), radius)
-    gap = (drop - top[None, :]) * normal[None, :]
-    factor = 2.0 if symmetric else 1.0
-    # dA = dx dy / n_z on the rail's surface
-    area = factor * along.weight[:, None] * (across.weight / normal)[None, :]
-    my = len(wheel_y)
+    along, across = point_line(wheel_x, quadrature), point_line(wheel_s, quadrature)
+    x, s = along.at, across.at
+    nx, ny, my = len(x), len(s), len(wheel_s)
+    facing = geometry.facing(np.repeat(x, ny), np.tile(s, nx))
+    # on the wheel dA = dx ds / cos(a), x = r sin(a); projected along the rail's normal
+    local = radius - wheel.point(s)[:, 1]
+    cosine = np.sqrt(1.0 - (x[:, None] / local[None, :]) ** 2)
+    area = (
+        along.weight[:, None] * across.weight[None, :] / cosine * facing.alignment.reshape(nx, ny)
+    )
+    arc = geometry.feet(s)
     return ContactPoints(
         x,
-        y,
-        rail.running_arc(y),
-        np.asarray(wheel_x, dtype=float),
-        np.asarray(wheel_y, dtype=float),
-        gap.ravel(),
-        np.tile(normal, len(x)),
-        area.ravel(),
+        rail.point(arc)[:, 0],
+        arc,
+        wheel_x,
+        wheel_s,
+        facing.gap,
+        facing.normal_z,
+        (2.0 if symmetric else 1.0) * area.ravel(),
         grid_facets(along, across, my),
         grid_rows(along.rows, across.rows, my),
         symmetric,

@@ -154,3 +154,7 @@ class PlacedWheel:
         share = -r_xy * n[:, 0] / np.hypot(sine, cosine)
         angle = np.arcsin(np.clip(share, -0.999, 0.999)) - np.arctan2(cosine, sine)
         return np.asarray((self.radius - c[:, 1]) * np.sin(angle))
+
+    def lowest(self, s: Array) -> Array:
+        """Points (n, 3) of the contact locus at arc lengths s (n,), in rail axes [m]."""
+        return self.surface(self.locus(s), s)[0]

@@ -13,32 +13,15 @@ import trimesh
 
 from contactstudy.arrays import Array, IntArray
 from contactstudy.exceptions import InputError
-from contactstudy.geometry.boxes import facet_boxes, strip_boxes
-
-
-def grid_surface(x: Array, y: Array, z: Array) -> trimesh.Trimesh:
-    """Triangulate a surface z(x, y) given on a rectangular grid.
-
-    Quadrilateral ``q = i*(ny-1) + j`` becomes the triangles ``2q`` and ``2q + 1``.
-
-    Parameters
-    ----------
-    x, y : ndarray (nx,), (ny,)
-        Grid lines in m.
-    z : ndarray (nx, ny)
-        Heights in m.
-
-    Returns
-    -------
-    trimesh.Trimesh
-        With nodes ``i*ny + j``, unprocessed (numbers are kept), normals up.
-    """
-    X, Y = np.meshgrid(x, y, indexing="ij")
-    return grid_mesh(np.stack([X, Y, np.asarray(z)], axis=-1))
+from contactstudy.geometry.boxes import facet_boxes
 
 
 def grid_mesh(nodes: Array) -> trimesh.Trimesh:
-    """Triangulate a surface given by the nodes (nx, ny, 3) of a grid, as `grid_surface` does."""
+    """Triangulate a surface given by the nodes (nx, ny, 3) of a grid.
+
+    Node ``i*ny + j``; quadrilateral ``q = i*(ny-1) + j`` becomes the triangles ``2q`` and
+    ``2q + 1``. Unprocessed, so numbers are kept; normals up where x and y grow with i and j.
+    """
     nx, ny, _ = nodes.shape
     node = np.arange(nx * ny).reshape(nx, ny)
     a, b, c, d = node[:-1, :-1], node[1:, :-1], node[1:, 1:], node[:-1, 1:]
@@ -122,19 +105,16 @@ class CandidateList:
     Parameters
     ----------
     wheel : FacetSearch
-        The upper body in its position at first touch: the tread as made by `grid_surface`, or
-        any triangulated surface.
+        The upper body in its position at first touch: the tread as made by `grid_mesh`, or any
+        triangulated surface.
     rail : trimesh.Trimesh
         The lower body's surface, in the same axes.
-    rail_y : ndarray, optional
-        Lines in y of a running surface, in m, between which the boxes lie; without them the
-        boxes enclose groups of facets (`contactstudy.geometry.boxes.facet_boxes`).
     sagitta : float
         Largest distance between facets and smooth surface, both bodies together, in m.
     padding : float
         In m.
     box_size : float
-        Size across of the groups of facets in m.
+        Size across of the groups of facets that a box encloses, in m.
 
     Attributes
     ----------
@@ -146,17 +126,12 @@ class CandidateList:
         self,
         wheel: FacetSearch,
         rail: trimesh.Trimesh,
-        rail_y: Array | None = None,
         sagitta: float = 0.0,
         padding: float = 20e-6,
         box_size: float = 2e-3,
     ) -> None:
         self._wheel, self._padding = wheel, padding
-        margin = padding + sagitta
-        if rail_y is None:
-            self._boxes = facet_boxes(rail, box_size, margin)
-        else:
-            self._boxes = strip_boxes(rail, np.asarray(rail_y), margin)
+        self._boxes = facet_boxes(rail, box_size, padding + sagitta)
         self._made_for = np.nan
         self._facets = self._quads = np.empty(0, dtype=np.int64)
         self.queries = 0
@@ -186,6 +161,6 @@ class CandidateList:
         return self._facets
 
     def quads(self, approach: float) -> IntArray:
-        """As `facets`, quadrilaterals of a tread made by `grid_surface`."""
+        """As `facets`, quadrilaterals of a tread made by `grid_mesh`."""
         self.facets(approach)
         return self._quads

@@ -71,8 +71,7 @@ def smooth_touch(wheel: PlacedWheel, rail: ProfileCurve, tolerance: float = 1e-1
     s = np.linspace(s0, s1, int((s1 - s0) / _FIRST) + 2)
     vertical = wheel.pose.vertical
     # from so high above that nothing overlaps
-    points, _ = wheel.surface(wheel.locus(s), s)
-    samples = points[:, 1:]
+    samples = wheel.lowest(s)[:, 1:]
     crown = rail.point(np.linspace(*rail.s_range, 101)) @ vertical
     travel = float((samples @ vertical).min() - crown.max() - 1e-3)
     low, high = travel, np.inf
@@ -115,8 +114,7 @@ def _nearest(
     down = travel * wheel.pose.vertical
 
     def look(s: Array) -> tuple[Array, Array]:
-        points, _ = wheel.surface(wheel.locus(s), s)
-        return rail.project(points[:, 1:] - down)
+        return rail.project(wheel.lowest(s)[:, 1:] - down)
 
     arc, distance = rail.project(samples - down)
     step = float(s[1] - s[0])

@@ -6,7 +6,7 @@ from functools import cached_property
 import numpy as np
 
 from contactstudy.arrays import Array, BoolArray
-from contactstudy.geometry.placed import Facing, surface_gap
+from contactstudy.geometry.facing import Facing, surface_gap
 from contactstudy.geometry.pose import PlacedWheel
 from contactstudy.geometry.smooth_touch import SmoothTouch
 from contactstudy.halfspace.love import LoveGrid

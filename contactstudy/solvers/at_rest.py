@@ -7,9 +7,10 @@ import numpy as np
 from contactstudy.arrays import Array
 from contactstudy.contact.residual import ResidualFlexibility, patch_splines
 from contactstudy.dynamics.banded import Factor
-from contactstudy.geometry.placement import Geometry, wheel_points
+from contactstudy.geometry.placement import Geometry
 from contactstudy.geometry.points import ContactPoints
 from contactstudy.geometry.quadrature import Quadrature
+from contactstudy.geometry.tread import wheel_points
 from contactstudy.solids.wheel import WheelFlexibility
 from contactstudy.track.solid import SolidTrack
 from contactstudy.track.unreduced import UnreducedTrack

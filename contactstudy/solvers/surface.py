@@ -10,8 +10,9 @@ from contactstudy.arrays import Array
 from contactstudy.contact.press import PressCurve, press_curve
 from contactstudy.contact.surface import SurfaceCoupling
 from contactstudy.dynamics.stepper import Integrator, average_acceleration
-from contactstudy.geometry.placement import Geometry, candidate_list, mesh_problems, wheel_points
+from contactstudy.geometry.placement import Geometry
 from contactstudy.geometry.quadrature import Quadrature
+from contactstudy.geometry.tread import candidate_list, mesh_problems, wheel_points
 from contactstudy.irregularity import Profile, faded
 from contactstudy.solids.wheel import WheelFlexibility, WheelRecipe, rigid_wheel
 from contactstudy.solids.wheel_modes import WheelModes, residual_flexibility
@@ -116,7 +117,7 @@ def surface_contact(
     problems = journey.problems_on(track.track, vehicle) + positive("penalty", penalty, "Pa/m")
     if tolerance is not None:
         problems += positive("tolerance of the penetration", tolerance, "m")
-    problems += mesh_problems(track, wheel, wheel_points(wheel, quadrature, geometry), geometry)
+    problems += mesh_problems(track, wheel, wheel_points(wheel, quadrature, geometry))
     if vehicle.n_wheels != 1:
         problems.append(
             f"surface contact: the vehicle has {vehicle.n_wheels} wheels; exactly one is possible"
@@ -235,7 +236,7 @@ def surface_coupling(
         int(assembly.wheel_dofs[0]),
         positions[:, 0],
         profile(positions + points.x),
-        candidate_list(track, wheel, geometry),
+        candidate_list(wheel, geometry),
         penalty,
         track.thickness,
         track.residual_period,

@@ -10,8 +10,9 @@ from hypothesis import strategies as st
 from contactstudy.contact.augmented import AugmentedLagrangian, Penalty, enforcement
 from contactstudy.contact.press import press_curve
 from contactstudy.exceptions import InputError, NumericalError
+from contactstudy.geometry.placement import Geometry
 from contactstudy.geometry.points import ContactPoints, contact_points
-from contactstudy.profiles import rail_profile, wheel_profile
+from contactstudy.profiles.named import rail_curve, wheel_curve
 from contactstudy.verification.cases.boussinesq import boussinesq
 
 TOLERANCE = 1e-9
@@ -80,15 +81,8 @@ def pressed_nodes(penalty: float, tolerance: float | None):  # type: ignore[no-u
 
 def node_points() -> ContactPoints:
     x = 2e-3 * np.arange(-5, 6)
-    return contact_points(
-        x,
-        x,
-        0.43,
-        rail_profile("60E1"),
-        wheel_profile("cylinder"),
-        symmetric=False,
-        quadrature="nodes",
-    )
+    bodies = Geometry(rail_curve("60E1"), wheel_curve("cylinder"), 0.43)
+    return contact_points(bodies, x, x, quadrature="nodes")
 
 
 def half_spaces(points: ContactPoints) -> np.ndarray:

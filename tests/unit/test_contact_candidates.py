@@ -9,7 +9,7 @@ from scipy.spatial import Delaunay
 
 from contactstudy.exceptions import InputError
 from contactstudy.geometry.boxes import facet_boxes
-from contactstudy.geometry.search import CandidateList, FacetSearch, grid_surface
+from contactstudy.geometry.search import CandidateList, FacetSearch, grid_mesh
 from contactstudy.geometry.touch import first_touch
 
 
@@ -27,7 +27,8 @@ def scanned(rng, n, height, half, noise, up):
 
 def regular(n, height, half):
     x, y = np.linspace(-half[0], half[0], n), np.linspace(-half[1], half[1], n)
-    return grid_surface(x, y, height(x[:, None], y[None, :]))
+    x, y = np.meshgrid(x, y, indexing="ij")
+    return grid_mesh(np.stack([x, y, height(x, y)], axis=-1))
 
 
 def clearance_at(lower, points):

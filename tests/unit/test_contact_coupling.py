@@ -9,13 +9,15 @@ from scipy.optimize import nnls
 from contactstudy.contact.surface import SurfaceCoupling
 from contactstudy.dynamics.banded import Factor
 from contactstudy.exceptions import NumericalError
+from contactstudy.geometry.facets import tread_candidates
+from contactstudy.geometry.placement import Geometry
 from contactstudy.geometry.points import contact_points
-from contactstudy.geometry.search import CandidateList, FacetSearch, grid_surface
-from contactstudy.profiles import rail_profile, wheel_profile
+from contactstudy.profiles.named import rail_curve, wheel_curve
 from contactstudy.track.patch import SurfacePatch
 from contactstudy.verification.cases.boussinesq import boussinesq
 
-RAIL, STEP, N_TRACK, PENALTY = rail_profile("60E1"), 2e-3, 9, 1e16
+BODIES = Geometry(rail_curve("60E1"), wheel_curve("cylinder"), 0.43)
+STEP, N_TRACK, PENALTY = 2e-3, 9, 1e16
 
 
 def half_space(x: np.ndarray, y: np.ndarray) -> np.ndarray:
@@ -56,7 +58,7 @@ class FakeTrack:
             local=None,
             x=nodes_x,
             y=nodes_y,
-            arc=rail_profile().running_arc(nodes_y),
+            arc=BODIES.rail.arc_of_y(nodes_y),
             centre_dofs=np.arange(N_TRACK),
             centre_map=np.ones((1, N_TRACK)),
             centre_residual=np.zeros((1, X.size)),
@@ -67,16 +69,8 @@ def setting(seed: int = 0, n_steps: int = 6):  # type: ignore[no-untyped-def]
     rng = np.random.default_rng(seed)
     track = FakeTrack(rng)
     x, y = STEP * np.arange(-6, 7), STEP * np.arange(5)
-    points = contact_points(x, y, 0.43, RAIL, wheel_profile("cylinder"))
-    drop = np.broadcast_to(0.43 - np.sqrt(0.43**2 - x[:, None] ** 2), (len(x), len(y)))
-    rail_y = STEP * np.arange(6)
-    top = np.broadcast_to(RAIL.running_surface(rail_y), (2, 6))
-    search = CandidateList(
-        FacetSearch(grid_surface(x, y, drop)),
-        grid_surface(np.array([-0.02, 0.02]), rail_y, top),
-        rail_y,
-        sagitta=3e-6,
-    )
+    points = contact_points(BODIES, x, y, symmetric=True)
+    search = tread_candidates(BODIES, x, y)
     positions = 0.1 + 4.17e-3 * np.arange(n_steps)
     roughness = 1e-6 * np.cos(300 * (positions[:, None] + points.x))
     wheel_F = half_space(x, y)

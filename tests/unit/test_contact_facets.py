@@ -10,11 +10,12 @@ from hypothesis import strategies as st
 from contactstudy.geometry.boxes import largest_sagitta
 from contactstudy.geometry.facets import (
     in_track_axes,
-    placed_candidates,
     rail_surface,
+    tread_candidates,
     wheel_surface,
 )
-from contactstudy.geometry.placed import placed_points
+from contactstudy.geometry.placement import Geometry
+from contactstudy.geometry.points import contact_points
 from contactstudy.geometry.pose import PlacedWheel, Pose
 from contactstudy.geometry.smooth_touch import smooth_touch
 from contactstudy.geometry.touch import first_touch
@@ -41,9 +42,8 @@ def test_candidates_of_a_placed_wheel(wheel, size, inclination, lateral, yaw, ro
     x = np.arange(-8, 9) * 2e-3
     low, high = max(touch.wheel_s - 0.02, curve.s_range[0]), touch.wheel_s + 0.02
     s = np.linspace(low, high, round((high - low) / size) + 1)
-    bodies = (x, s, RADIUS, RAIL, curve, pose, touch)
-    points = placed_points(*bodies)
-    candidates = placed_candidates(*bodies)
+    bodies = Geometry(RAIL, curve, RADIUS, pose)
+    points, candidates = contact_points(bodies, x, s), tread_candidates(bodies, x, s)
     for a in (approach, 0.3 * approach):
         overlapping = np.unique(points.facet[points.gap < a * points.normal_z])
         assert np.all(np.isin(overlapping, candidates.quads(a)))

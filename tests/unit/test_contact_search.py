@@ -8,27 +8,21 @@ from hypothesis import strategies as st
 
 from contactstudy.contact.complementarity import contact_forces
 from contactstudy.exceptions import InputError
+from contactstudy.geometry.facets import tread_candidates
+from contactstudy.geometry.placement import Geometry
 from contactstudy.geometry.points import ContactPoints, contact_points
-from contactstudy.geometry.search import CandidateList, FacetSearch, grid_surface
+from contactstudy.geometry.search import CandidateList, FacetSearch
 from contactstudy.geometry.touch import first_touch
-from contactstudy.profiles import rail_profile, wheel_profile
+from contactstudy.profiles.named import rail_curve, wheel_curve
 from contactstudy.verification.cases.boussinesq import boussinesq
 
-RAIL, WHEEL = rail_profile("60E1"), wheel_profile("cylinder")
+BODIES = Geometry(rail_curve("60E1"), wheel_curve("cylinder"), 0.43)
 
 
 def surfaces(size: float) -> tuple[ContactPoints, CandidateList]:
     n, m = round(12e-3 / size), round(8e-3 / size)
     x, y = np.arange(-n, n + 1) * size, np.arange(m + 1) * size
-    points = contact_points(x, y, 0.43, RAIL, WHEEL)
-    drop = np.broadcast_to(0.43 - np.sqrt(0.43**2 - x[:, None] ** 2), (len(x), len(y)))
-    rail_x, rail_y = np.arange(-n - 4, n + 5) * size, np.arange(m + 2) * size
-    top = np.broadcast_to(RAIL.running_surface(rail_y), (len(rail_x), len(rail_y)))
-    sagitta = size**2 / 8 * (1 / 0.43 + 1 / 0.30)
-    candidates = CandidateList(
-        FacetSearch(grid_surface(x, y, drop)), grid_surface(rail_x, rail_y, top), rail_y, sagitta
-    )
-    return points, candidates
+    return contact_points(BODIES, x, y, symmetric=True), tread_candidates(BODIES, x, y)
 
 
 def flexibility(points: ContactPoints) -> np.ndarray:

@@ -13,7 +13,7 @@ from contactstudy import cli
 from contactstudy.exceptions import InputError
 from contactstudy.export.calculix import calculix_input
 from contactstudy.export.press_mesh import FACES, press_mesh
-from contactstudy.geometry.placed import surface_gap
+from contactstudy.geometry.facing import surface_gap
 from contactstudy.geometry.placement import Geometry
 from contactstudy.geometry.pose import PlacedWheel, Pose
 from contactstudy.profiles import rail_curve, wheel_curve

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from contactstudy.contact.groups import contact_area, patch_forces, patch_record
+from contactstudy.geometry.placement import Geometry
 from contactstudy.geometry.points import contact_points
-from contactstudy.profiles.rail import rail_profile
-from contactstudy.profiles.wheel import wheel_profile
+from contactstudy.profiles.named import rail_curve, wheel_curve
 
 
 def grid(quadrature):
@@ -14,12 +14,9 @@ def grid(quadrature):
     step = 2e-3 if quadrature == "gauss" else 1e-3
     half_x, half_y = round(12e-3 / step), round(16e-3 / step)
     return contact_points(
+        Geometry(rail_curve(), wheel_curve("cylinder"), 0.46),
         np.arange(-half_x, half_x + 1) * step,
         np.arange(-half_y, half_y + 1) * step,
-        0.46,
-        rail_profile(),
-        wheel_profile("cylinder"),
-        symmetric=False,
         quadrature=quadrature,
     )
 

@@ -8,12 +8,14 @@ import trimesh
 from scipy.spatial import cKDTree
 
 from contactstudy.exceptions import InputError
-from contactstudy.geometry.placed import placed_points, surface_gap
+from contactstudy.geometry.facing import surface_gap
+from contactstudy.geometry.interpolation import grid_rows
+from contactstudy.geometry.placement import Geometry
 from contactstudy.geometry.points import contact_points
 from contactstudy.geometry.pose import PlacedWheel, Pose
+from contactstudy.geometry.quadrature import Quadrature, grid_facets, point_line
 from contactstudy.geometry.smooth_touch import smooth_touch
 from contactstudy.geometry.touch import first_touch
-from contactstudy.profiles import rail_profile, wheel_profile
 from contactstudy.profiles.named import rail_curve, wheel_curve
 
 RAIL = rail_curve()
@@ -33,28 +35,46 @@ def placed(case):
     return PlacedWheel(wheel_curve(name), RADIUS, pose)
 
 
-def test_centred_cylinder_is_the_symmetric_default() -> None:
-    x, y = np.linspace(-8e-3, 8e-3, 17), np.linspace(-8e-3, 8e-3, 17)
-    old = contact_points(x, y, RADIUS, rail_profile(), wheel_profile("cylinder"), symmetric=False)
-    wheel = wheel_curve("cylinder")
-    new = placed_points(x, y, RADIUS, RAIL, wheel, Pose())
+def test_centred_cylinder_against_what_lies_below_its_points() -> None:
+    lines = np.linspace(-8e-3, 8e-3, 17)
+    new = contact_points(Geometry(RAIL, wheel_curve("cylinder"), RADIUS), lines, lines)
+    line = point_line(lines, "gauss")
+    x, y = np.repeat(line.at, len(line.at)), np.tile(line.at, len(line.at))
+    vertical = RADIUS - np.sqrt(RADIUS**2 - x**2) + 0.300 - np.sqrt(0.300**2 - y**2)
+    slope, normal_z = np.abs(y) / np.sqrt(0.300**2 - y**2), np.sqrt(1 - (y / 0.300) ** 2)
     # "distance down times n_z" is the distance from the tangent plane below the point; the
     # closest point lies v sin(g) aside, where the surface has fallen by k (v sin(g))^2/2 more
-    slope = np.abs(rail_profile().running_slope(old.y_of_points))
-    vertical = old.gap / old.normal_z
     bound = 0.5 * (1 / 0.300) * (vertical * slope) ** 2
-    assert np.all(np.abs(new.gap - old.gap) <= 1.01 * bound + 1e-16)
-    assert new.normal_z == pytest.approx(old.normal_z, abs=5e-6)
+    assert np.all(np.abs(new.gap - vertical * normal_z) <= 1.01 * bound + 1e-16)
+    assert new.normal_z == pytest.approx(normal_z, abs=5e-6)
     # areas of surfaces that are not parallel differ by the square of the angle between them
-    assert new.area == pytest.approx(old.area, rel=2 * slope.max() ** 2)
+    area = np.multiply.outer(line.weight, line.weight).ravel() / normal_z
+    assert new.area == pytest.approx(area, rel=2 * slope.max() ** 2)
     # feet of the closest point and below the point lie v sin(g) apart
-    aside = (vertical * slope).reshape(len(old.x), -1).min(axis=0).max() + 1e-12
-    assert new.arc == pytest.approx(old.arc, abs=aside)
-    assert new.y == pytest.approx(old.y, abs=aside)
-    assert np.array_equal(new.facet, old.facet)
+    aside = (vertical * slope).reshape(len(new.x), -1).min(axis=0).max() + 1e-12
+    assert new.arc == pytest.approx(0.300 * np.arcsin(line.at / 0.300), abs=aside)
+    assert new.y == pytest.approx(line.at, abs=aside)
+    assert np.array_equal(new.facet, grid_facets(line, line, 17))
     np.testing.assert_allclose(
-        new.wheel_rows.matrix(17 * 17), old.wheel_rows.matrix(17 * 17), atol=1e-15
+        new.wheel_rows.matrix(17 * 17),
+        grid_rows(line.rows, line.rows, 17).matrix(17 * 17),
+        atol=1e-15,
     )
+
+
+@pytest.mark.parametrize("quadrature", ["gauss", "nodes"])
+def test_half_of_the_points_is_that_of_the_whole(quadrature: Quadrature) -> None:
+    x, s = 2e-3 * np.arange(-6, 7), 2e-3 * np.arange(5)
+    bodies = Geometry(RAIL, wheel_curve("cylinder"), RADIUS)
+    half = contact_points(bodies, x, s, quadrature, symmetric=True)
+    whole = contact_points(bodies, x, np.r_[-s[:0:-1], s], quadrature)
+    right = np.flatnonzero(whole.y > -1e-12)
+    np.testing.assert_allclose(whole.arc[right], half.arc, atol=1e-15)
+    for name in ("gap", "normal_z"):
+        ours, both = (getattr(p, name).reshape(len(half.x), -1) for p in (half, whole))
+        np.testing.assert_allclose(both[:, right], ours, atol=1e-15)
+    # both halves; a line in the middle belongs to both
+    assert half.area.sum() == pytest.approx(whole.area.sum(), rel=1e-12)
 
 
 @pytest.mark.parametrize("angle", [INCLINED, -0.1])
@@ -82,7 +102,7 @@ def test_opposite_yaw_is_the_mirror_image_along_the_rail() -> None:
     wheel, x = wheel_curve("S1002"), np.linspace(-12e-3, 12e-3, 13)
     s = np.linspace(-20e-3, 5e-3, 12)
     one, other = (
-        placed_points(x, s, RADIUS, RAIL, wheel, Pose(INCLINED, 1e-3, 2e-3, yaw))
+        contact_points(Geometry(RAIL, wheel, RADIUS, Pose(INCLINED, 1e-3, 2e-3, yaw)), x, s)
         for yaw in (0.02, -0.02)
     )
     shape = len(one.x), len(one.y)
@@ -177,7 +197,7 @@ def test_impossible_poses_and_grids_are_refused() -> None:
     assert len(found.value.problems) == 3
     wheel = wheel_curve("S1002")
     with pytest.raises(InputError, match="reaches beyond the profile"):
-        placed_points(np.arange(3.0), np.array([0.0, 0.1]), RADIUS, RAIL, wheel, Pose())
+        contact_points(Geometry(RAIL, wheel, RADIUS), np.arange(3.0), np.array([0.0, 0.1]))
     with pytest.raises(InputError, match="end of a profile"):
         smooth_touch(PlacedWheel(wheel_curve("cone"), RADIUS, Pose(0.0, -0.09)), RAIL)
     with pytest.raises(InputError, match="a wheel's is needed"):

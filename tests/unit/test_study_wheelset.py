@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from contactstudy.exceptions import InputError
-from contactstudy.geometry.placed import placed_points
+from contactstudy.geometry.points import contact_points
 from contactstudy.solids.cell import section_of
 from contactstudy.study.kinds.passage import build
 from contactstudy.study.kinds.passage.placing import contact_zone, geometry
@@ -76,9 +76,7 @@ def test_fine_zones_lie_over_each_other(shift):
     wheel = build.wheel_recipe(study)
     assert not wheel.symmetric and wheel.contact_centre == zone.wheel
     # the meshed running surface holds the foot of every point of the wheel's zone
-    points = placed_points(
-        wheel.x, wheel.y, placed.radius, placed.rail, placed.wheel, placed.pose, placed.touch
-    )
+    points = contact_points(placed, wheel.x, wheel.y)
     section, _, rows = section_of(build.recipe(study))
     assert not section.symmetric
     assert rows.surface_arc.min() < points.arc.min() < points.arc.max() < rows.surface_arc.max()

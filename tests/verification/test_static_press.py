@@ -18,11 +18,13 @@ from contactstudy.contact.press import (
     tangent_stiffness,
 )
 from contactstudy.geometry.interpolation import SplineLine
+from contactstudy.geometry.placement import Geometry
 from contactstudy.geometry.points import ContactPoints, contact_points
-from contactstudy.profiles import rail_profile, wheel_profile
+from contactstudy.profiles.named import rail_curve, wheel_curve
 from contactstudy.verification.cases.graded import graded_lines
 from contactstudy.verification.cases.halfspace import half_space_patch
 
+BODIES = Geometry(rail_curve(), wheel_curve("cylinder"), 0.43)
 LOADS = np.array([50e3, 60e3, 80e3, 100e3])
 MARGIN = 2  # surface lines beyond the contact points, for the spline
 
@@ -53,13 +55,7 @@ def block(size: float) -> tuple[ContactPoints, np.ndarray]:
     nx, ny = round(length / size) + MARGIN + 1, round(width / size) + MARGIN + 1
     patch = half_space_patch(x, y, z, (slice(0, nx), slice(0, ny)))
     full = np.concatenate([-patch.x[:0:-1], patch.x])
-    points = contact_points(
-        patch.x[:-MARGIN],
-        patch.y[:-MARGIN],
-        0.43,
-        rail_profile("60E1"),
-        wheel_profile("cylinder"),
-    )
+    points = contact_points(BODIES, patch.x[:-MARGIN], patch.y[:-MARGIN], symmetric=True)
     assert len(full) == 2 * nx - 1
     # quarter model: the points stand for x < 0 as well, and the rail's rows mirror there
     quarter = points.__class__(**{**points.__dict__, "area": 2 * points.area})
@@ -91,9 +87,7 @@ def ellipse_errors(size: float) -> np.ndarray:
     """Relative errors of a, b, p0 by moments and p0 at the nodes, (4, loads)."""
     points, _ = block(size)
     wheel_x = np.concatenate([-points.wheel_x[:0:-1], points.wheel_x])
-    whole = contact_points(
-        wheel_x, points.wheel_y, 0.43, rail_profile("60E1"), wheel_profile("cylinder")
-    )
+    whole = contact_points(BODIES, wheel_x, points.wheel_y, symmetric=True)
     rows = []
     for force, solution in zip(LOADS, pressed(size).solutions, strict=True):
         a, b, p0, _ = hertz(force)

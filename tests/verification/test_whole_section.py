@@ -9,8 +9,9 @@ import skfem
 from skfem.helpers import dot, grad
 
 from contactstudy.dynamics.banded import Factor
-from contactstudy.geometry.placement import Geometry, wheel_points
+from contactstudy.geometry.placement import Geometry
 from contactstudy.geometry.pose import Pose
+from contactstudy.geometry.tread import wheel_points
 from contactstudy.solids.cell import condense, section_of
 from contactstudy.solids.recipe import CellRecipe
 from contactstudy.solids.wheel import WheelRecipe, elastic_wheel
@@ -167,7 +168,7 @@ def test_s1002_rolls_on_an_inclined_rail():
     )
     foundation = WinklerFoundation(100e6, 50e3, lateral_stiffness=50e6, lateral_damping=50e3)
     track = SolidTrack(short_track(foundation, recipe, length=6.0), condense(recipe))
-    geometry = Geometry.of(wheel, Pose(np.arctan(1 / 40), -0.0030))
+    geometry = Geometry.of(wheel.recipe, Pose(np.arctan(1 / 40), -0.0030))
     vehicle = wheel_column()
     data = surface_contact(
         track,

@@ -8,6 +8,7 @@ from contactstudy.contact.groups import contact_area
 from contactstudy.export.calculix import calculix_input
 from contactstudy.export.press_mesh import PressMesh, press_mesh
 from contactstudy.export.run_calculix import CalculixRun, run_calculix
+from contactstudy.geometry.tread import wheel_points
 from contactstudy.halfspace.hertz import HertzContact, contact_modulus, hertz_contact
 from contactstudy.profiles.rail import rail_profile
 from contactstudy.solids.bodies import rail_body, wheel_body
@@ -15,7 +16,7 @@ from contactstudy.solids.cache import cached
 from contactstudy.solids.recipe import CellRecipe
 from contactstudy.solids.wheel import WheelFlexibility
 from contactstudy.solids.wheel_recipe import WheelRecipe
-from contactstudy.solvers.surface import geometry_press, wheel_points
+from contactstudy.solvers.surface import geometry_press
 from contactstudy.track.model import Track
 from contactstudy.track.solid import SolidTrack, solid_rail
 from contactstudy.track.unreduced import UnreducedTrack

@@ -8,7 +8,8 @@ from contactstudy.contact.groups import contact_area
 from contactstudy.export.calculix import calculix_input
 from contactstudy.export.press_mesh import press_mesh
 from contactstudy.export.run_calculix import run_calculix
-from contactstudy.geometry.placement import Geometry, wheel_points
+from contactstudy.geometry.placement import Geometry
+from contactstudy.geometry.tread import wheel_points
 from contactstudy.profiles.rail import rail_profile
 from contactstudy.solids.bodies import wheel_body
 from contactstudy.solids.cache import cached
@@ -89,7 +90,6 @@ def _press(
 ) -> CaseResult:
     """One press in both programs; without bands the share of the gauge corner is compared."""
     cell, placed = build.recipe(study), geometry(study)
-    assert placed is not None
     # wide steps far from the contact: quicker, and the same for both programs
     recipe = replace(build.wheel_recipe(study), far_step=np.pi / 6)
     penalty, load = study.solid.penalty, float(vehicle(study).static_loads[0])

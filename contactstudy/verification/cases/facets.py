@@ -16,7 +16,7 @@ from contactstudy.geometry.placement import Geometry
 from contactstudy.solids.wheel import WheelFlexibility
 from contactstudy.track.solid import SolidTrack
 from contactstudy.track.unreduced import UnreducedTrack
-from contactstudy.verification.cases.flat_points import half_points, whole_points
+from contactstudy.verification.cases.flat_points import flat_points
 
 
 @dataclass(frozen=True)
@@ -66,17 +66,14 @@ def facet_press(
     order : int
         Gauss points along each side of a face, or of what the other body's lines cut from it.
     geometry : Geometry, optional
-        Position of a whole wheel on a whole rail section; half sections have none.
+        The recipe's profiles, centred and upright, when not given.
     """
     patch = track.patch(x, 1.05 * float(wheel.x[-1]) + 2 * track.thickness)
     factor = Factor(track.stiffness)
     unit = np.zeros((factor.n, len(patch.dofs)))
     unit[patch.dofs, np.arange(len(patch.dofs))] = 1.0
     rail_flexibility = patch.map @ factor.solve(unit)[patch.dofs] @ patch.map.T + patch.residual
-    if geometry is None:
-        points = half_points(patch, wheel, x, order, track.recipe.profile)
-    else:
-        points = whole_points(patch, wheel, x, order, geometry)
+    points = flat_points(patch, wheel, x, order, geometry or Geometry.of(wheel.recipe))
     M = points.on_rail @ rail_flexibility @ points.on_rail.T
     M += points.on_wheel @ wheel.flexibility @ points.on_wheel.T
     M = 0.5 * (M + M.T) + np.diag(1.0 / (penalty * points.area))

@@ -7,11 +7,7 @@ import numpy as np
 from contactstudy.arrays import Array, IntArray
 from contactstudy.geometry.interpolation import Rows, grid_rows, linear_rows
 from contactstudy.geometry.placement import Geometry
-from contactstudy.geometry.points import rolling_drop
-from contactstudy.geometry.pose import PlacedWheel
 from contactstudy.geometry.quadrature import PointLine, grid_facets
-from contactstudy.profiles.rail import rail_profile
-from contactstudy.profiles.wheel import wheel_profile
 from contactstudy.solids.wheel import WheelFlexibility
 from contactstudy.track.patch import SurfacePatch
 
@@ -48,35 +44,10 @@ class FlatPoints:
         return np.asarray(sums.reshape(shape), dtype=float)
 
 
-def half_points(
-    patch: SurfacePatch, wheel: WheelFlexibility, x: float, order: int, profile: str
-) -> FlatPoints:
-    """Points of a symmetric wheel centred on an upright rail at X = x [m]."""
-    along, across = gauss_line(wheel.x, order), gauss_line(wheel.y, order)
-    nx, ny = len(patch.x), len(patch.y)
-    rows_x, rows_y = linear_rows(patch.x - x, along.at), linear_rows(patch.y, across.at)
-    on_rail = grid_rows(rows_x, rows_y, ny).matrix(nx * ny)
-    on_wheel = _on_wheel(along.rows, across.rows, wheel)
-    rail, recipe = rail_profile(profile), wheel.recipe
-    height = np.asarray(wheel_profile(recipe.profile).height(wheel.y))
-    drop = rolling_drop(wheel.x, height, recipe.dimensions.radius).ravel()
-    top = np.tile(np.asarray(rail.running_surface(patch.y)), nx)
-    slope = np.asarray(rail.running_slope(across.at))
-    normal = np.tile(1.0 / np.sqrt(1.0 + slope**2), len(along.at))
-    return FlatPoints(
-        gap=(on_wheel @ drop - on_rail @ top) * normal,
-        normal=np.column_stack([0.0 * normal, normal]),
-        area=2.0 * np.outer(along.weight, across.weight).ravel() / normal,
-        on_rail=on_rail,
-        on_wheel=on_wheel,
-        face=grid_facets(along, across, len(wheel.y)).ravel(),
-    )
-
-
-def whole_points(
+def flat_points(
     patch: SurfacePatch, wheel: WheelFlexibility, x: float, order: int, geometry: Geometry
 ) -> FlatPoints:
-    """Points of a whole wheel in any position on a whole rail section at X = x [m].
+    """Points of a wheel on a rail at X = x [m].
 
     The faces of the wheel are bilinear between its nodes; those of the rail are the strips along X
     between the nodes of its section. Faces of both bodies meet at their ridges, where the pressure
@@ -104,13 +75,16 @@ def whole_points(
     t = np.clip(share[n, strip], 0.0, 1.0)
     lines = Rows(np.stack([strip, strip + 1], axis=1), np.stack([1.0 - t, t], axis=1))
     slices = linear_rows(patch.x - x, at[:, 0])
+    normal, both = geometry.pose.track_of_rail(outward[strip]), 1.0
+    if wheel.recipe.symmetric:
+        normal, both = normal * [0.0, 1.0], 2.0
     index = slices.index[:, :, None] * len(corner) + lines.index[:, None, :]
     weight = slices.weight[:, :, None] * lines.weight[:, None, :]
     on_rail = Rows(index.reshape(len(at), -1), weight.reshape(len(at), -1))
     return FlatPoints(
         gap=np.einsum("nc,nc->n", away[n, strip], outward[strip]),
-        normal=geometry.pose.track_of_rail(outward[strip]),
-        area=np.outer(along.weight, across.weight).ravel() * stretch,
+        normal=normal,
+        area=both * np.outer(along.weight, across.weight).ravel() * stretch,
         on_rail=on_rail.matrix(len(patch.x) * len(corner)),
         on_wheel=on_wheel,
         face=grid_facets(along, across, len(wheel.y)).ravel(),
@@ -122,8 +96,7 @@ def _tread(wheel: WheelFlexibility, geometry: Geometry) -> Array:
     # planes through the axle: x = rho sin(theta), the grid's x at the radius of its middle
     rho = geometry.radius - geometry.wheel.point(wheel.y)[:, 1]
     x = np.outer(wheel.x / wheel.recipe.contact_radius, rho).ravel()
-    placed = PlacedWheel(geometry.wheel, geometry.radius, geometry.pose)
-    nodes, _ = placed.surface(x, np.tile(wheel.y, len(wheel.x)))
+    nodes, _ = geometry.placed.surface(x, np.tile(wheel.y, len(wheel.x)))
     nodes[:, 1:] -= geometry.touch.travel * geometry.pose.vertical
     return nodes
 

@@ -6,8 +6,8 @@ import numpy as np
 
 from contactstudy.contact.groups import contact_area
 from contactstudy.contact.press import contact_ellipse
-from contactstudy.geometry.placement import Geometry, wheel_points
-from contactstudy.geometry.pose import PlacedWheel
+from contactstudy.geometry.placement import Geometry
+from contactstudy.geometry.tread import wheel_points
 from contactstudy.halfspace.hertz import contact_modulus
 from contactstudy.halfspace.patches import WheelPress, press_wheel
 from contactstudy.solvers.surface import geometry_press
@@ -41,7 +41,6 @@ def solid_press() -> CaseResult:
     """Static press at four loads, solid bodies beside the half-space."""
     study = load_study("s1002_inclined")
     placed = geometry(study)
-    assert placed is not None
     exact = [_half_space(study, placed, float(load)) for load in LOADS]
     wheel = build.wheel(study)
     track = build.solid_track(study, build.track(study))
@@ -103,5 +102,4 @@ def _check(
 
 def _half_space(study: Study, placed: Geometry, load: float) -> WheelPress:
     modulus = contact_modulus(study.track.youngs_modulus, study.track.poisson_ratio)
-    body = PlacedWheel(placed.wheel, placed.radius, placed.pose)
-    return press_wheel(body, placed.rail, load, modulus)
+    return press_wheel(placed.placed, placed.rail, load, modulus)

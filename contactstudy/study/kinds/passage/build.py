@@ -11,7 +11,6 @@ from contactstudy.contact.laws import ContactLaw, HertzSpring, LinearSpring, Rig
 from contactstudy.contact.press import tangent_stiffness
 from contactstudy.dynamics import integrators
 from contactstudy.halfspace.hertz import HertzContact, contact_modulus, hertz_contact
-from contactstudy.profiles.rail import rail_profile
 from contactstudy.profiles.wheel_body import wheel_dimensions
 from contactstudy.solids.bodies import modes_body, rail_body, wheel_body
 from contactstudy.solids.cache import Body, cached
@@ -197,18 +196,13 @@ def integrator(run: RunTable) -> integrators.Integrator:
 
 
 def hertz(study: Study) -> HertzContact:
-    """Hertz's contact of the study's wheel and rail under the static wheel load.
-
-    The wheel is a cylinder about the Y axis, the rail's crown one about the X axis.
-    """
+    """Hertz's contact of the study's wheel and rail under the static wheel load."""
     table = study.track
-    crown = table.crown_radius if table.rail == "given" else rail_profile(table.rail).crown_radius
     modulus = contact_modulus(table.youngs_modulus, table.poisson_ratio)
     load = float(vehicle(study).static_loads[0])
-    placed = geometry(study)
-    if placed is not None:
-        return hertz_contact(load, modulus, *placed.relative_radii())
-    return hertz_contact(load, modulus, study.vehicle.wheel_radius, crown)
+    if study.solid.section == "half" and table.rail == "given":
+        return hertz_contact(load, modulus, study.vehicle.wheel_radius, table.crown_radius)
+    return hertz_contact(load, modulus, *geometry(study).relative_radii())
 
 
 def pressed_stiffness(study: Study, described: Track) -> float:

@@ -13,8 +13,7 @@ from contactstudy.export.calculix import calculix_input
 from contactstudy.export.press_mesh import PressMesh, press_mesh
 from contactstudy.files import writing
 from contactstudy.geometry.placement import Geometry
-from contactstudy.halfspace.hertz import contact_modulus, hertz_contact
-from contactstudy.profiles.rail import rail_profile
+from contactstudy.geometry.pose import Pose
 from contactstudy.solids.recipe import CellRecipe
 from contactstudy.solids.wheel_recipe import WheelRecipe
 from contactstudy.study.kinds.passage import build
@@ -103,7 +102,7 @@ def export_press(
         problems.append(f"--out {out}: is a folder; give the name of a file")
     raise_if(problems)
     cell, wheel, placed = build.recipe(study), build.wheel_recipe(study), geometry(study)
-    start = _start(study, newtons) if placed is None else _start_whole(cell, wheel, placed, newtons)
+    start = _start(cell, wheel, placed, newtons)
     mesh = press_mesh(cell, wheel, length, placed)
     header = (
         f"contactstudy {__version__}: static press of an elastic wheel on an elastic rail",
@@ -115,7 +114,7 @@ def export_press(
         f"wheel {wheel.profile}, radius {wheel.dimensions.radius:g} m, elements of "
         f"{wheel.size:g} m; {len(mesh.wheel)} elements",
         f"E = {cell.youngs_modulus:.6g} Pa, nu = {cell.poisson_ratio:g}",
-        *_axes(placed),
+        *_axes(placed.pose, cell.symmetric),
     )
     text = calculix_input(
         mesh,
@@ -131,14 +130,13 @@ def export_press(
     return Exported(newtons, length, mesh)
 
 
-def _axes(placed: Geometry | None) -> tuple[str, ...]:
+def _axes(pose: Pose, symmetric: bool) -> tuple[str, ...]:
     """Lines of the header: axes, position of the bodies, where the results are."""
-    if placed is None:
+    if symmetric:
         return (
             "half model y >= 0; X along the rail, Y lateral, Z up; origin at first touch",
             "results of the second step: approach = -U3 of HUB; force and area = twice those of CF",
         )
-    pose = placed.pose
     return (
         "whole model in axes of the track: X along the rail, Y to the field side, Z up; origin at "
         "the crown of the rail, in the middle of its length",
@@ -161,25 +159,8 @@ def _other_surfaces(study: Study) -> list[str]:
     return problems
 
 
-def _start(study: Study, load: float) -> float:
-    """Hertz's approach in m of a wheel centred on its rail, whose patch the fine tread holds."""
-    wheel = build.wheel_recipe(study)
-    E, nu = study.track.youngs_modulus, study.track.poisson_ratio
-    crown = rail_profile(study.track.rail).crown_radius
-    hertz = hertz_contact(load, contact_modulus(E, nu), study.vehicle.wheel_radius, crown)
-    reach, half = wheel.contact_half_length, wheel.contact_half_width
-    if hertz.semi_axis_x > reach or hertz.semi_axis_y > half:
-        raise _too_wide(
-            load,
-            f"{hertz.semi_axis_x:.4g} m along and {hertz.semi_axis_y:.4g} m across from its "
-            "middle after Hertz",
-            wheel,
-        )
-    return hertz.approach
-
-
-def _start_whole(cell: CellRecipe, wheel: WheelRecipe, placed: Geometry, load: float) -> float:
-    """Approach in m at which faces of whole sections overlap, their patch within the fine zones.
+def _start(cell: CellRecipe, wheel: WheelRecipe, placed: Geometry, load: float) -> float:
+    """Approach in m at which the faces overlap, their patch within the fine zones.
 
     The patch is about where the bodies, undeformed, overlap at 0.55 of the approach (Kik &
     Piotrowski 1996).
@@ -189,28 +170,20 @@ def _start_whole(cell: CellRecipe, wheel: WheelRecipe, placed: Geometry, load: f
     s, arc = placed.overlap(0.55 * approach)
     along = float(np.sqrt(2 * placed.radius * 0.55 * approach))
     along += abs(placed.touch.wheel_x)
-    on_rail = np.abs(arc - cell.contact_centre)
-    tread = wheel.y
-    outside = s.min() < tread[0] or s.max() > tread[-1] or on_rail.max() > cell.contact_half_width
-    if outside or along > wheel.contact_half_length:
-        raise _too_wide(
-            load,
-            f"about {along:.4g} m along from the wheel's lowest point and from "
-            f"{1e3 * s.min():.4g} to {1e3 * s.max():.4g} mm of the wheel's profile",
-            wheel,
+    across = np.abs(s - wheel.contact_centre).max() > wheel.contact_half_width
+    across |= np.abs(arc - cell.contact_centre).max() > cell.contact_half_width
+    if across or along > wheel.contact_half_length:
+        raise InputError(
+            f"load = {load:.6g} N: the patch, about {along:.4g} m along from the wheel's lowest "
+            f"point and from {1e3 * s.min():.4g} to {1e3 * s.max():.4g} mm of the wheel's profile, "
+            "does not fit on the finely meshed tread: enlarge solid.contact_half_length (now "
+            f"{wheel.contact_half_length:g} m) or solid.contact_half_width "
+            f"({wheel.contact_half_width:g} m)"
         )
     # the flat faces lie inside the smooth bodies by their sagitta h^2/8 k, along the normal
     bend = np.abs(placed.rail.curvature(arc)).max() + np.abs(placed.wheel.curvature(s)).max()
     sagitta = wheel.size**2 / 8 * float(bend + 1 / placed.radius)
     return approach + sagitta / float(np.cos(placed.touch.angle))
-
-
-def _too_wide(load: float, patch: str, wheel: WheelRecipe) -> InputError:
-    return InputError(
-        f"load = {load:.6g} N: the patch, {patch}, does not fit on the finely meshed tread: "
-        f"enlarge solid.contact_half_length (now {wheel.contact_half_length:g} m) or "
-        f"solid.contact_half_width ({wheel.contact_half_width:g} m)"
-    )
 
 
 def _run(study: Study, wanted: str | None, problems: list[str]) -> str | None:

@@ -14,7 +14,7 @@ from contactstudy.geometry.placement import Geometry
 from contactstudy.geometry.pose import Pose
 from contactstudy.geometry.smooth_touch import SmoothTouch
 from contactstudy.profiles.curve import ProfileCurve
-from contactstudy.profiles.named import wheel_curve
+from contactstudy.profiles.named import rail_curve, wheel_curve
 from contactstudy.profiles.rail import rail_profile
 from contactstudy.profiles.wheel_body import wheel_dimensions
 from contactstudy.scans import Meeting
@@ -51,10 +51,11 @@ class ContactZone:
     rail: tuple[float, float]
 
 
-def geometry(study: Study) -> Geometry | None:
-    """Profiles and position of the wheel; None for half sections, centred and upright."""
+def geometry(study: Study) -> Geometry:
+    """Profiles and position of the wheel; half sections are a centred cylinder's."""
     if study.solid.section == "half":
-        return None
+        rail, wheel = rail_curve(study.track.rail), wheel_curve("cylinder")
+        return _geometry(rail, wheel, study.vehicle.wheel_radius, Pose())
     drawn, pose = _position(study)
     return _geometry(*study.scan.curves(*drawn), study.vehicle.wheel_radius, pose)
 
@@ -105,10 +106,11 @@ def contact_zone(study: Study) -> ContactZone:
         If the bodies touch beyond the place that can be meshed finely, or so steeply that the
         rail is pushed far aside.
     """
-    solid, placed = study.solid, geometry(study)
-    if placed is None:
+    solid = study.solid
+    if solid.section == "half":
         half = solid.contact_half_width + RAIL_MARGIN
         return ContactZone(0.0, (-half, half))
+    placed = geometry(study)
     found = _settled(placed, float(vehicle(study).static_loads[0]))
     lines = fine_arcs(0.0, solid.contact_half_width, solid.mesh_size)
     dimensions = wheel_dimensions(solid.wheel_section).with_radius(study.vehicle.wheel_radius)
