@@ -13,7 +13,7 @@ from contactstudy.exceptions import InputError, NumericalError
 from contactstudy.geometry.placement import Geometry
 from contactstudy.geometry.points import ContactPoints, contact_points
 from contactstudy.profiles.named import rail_curve, wheel_curve
-from contactstudy.verification.cases.boussinesq import boussinesq
+from contactstudy.verification.cases.point_loads import boussinesq
 
 TOLERANCE = 1e-9
 

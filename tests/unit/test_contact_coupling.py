@@ -14,7 +14,7 @@ from contactstudy.geometry.placement import Geometry
 from contactstudy.geometry.points import contact_points
 from contactstudy.profiles.named import rail_curve, wheel_curve
 from contactstudy.track.patch import SurfacePatch
-from contactstudy.verification.cases.boussinesq import boussinesq
+from contactstudy.verification.cases.point_loads import boussinesq
 
 BODIES = Geometry(rail_curve("60E1"), wheel_curve("cylinder"), 0.43)
 STEP, N_TRACK, PENALTY = 2e-3, 9, 1e16

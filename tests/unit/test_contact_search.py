@@ -14,7 +14,7 @@ from contactstudy.geometry.points import ContactPoints, contact_points
 from contactstudy.geometry.search import CandidateList, FacetSearch
 from contactstudy.geometry.touch import first_touch
 from contactstudy.profiles.named import rail_curve, wheel_curve
-from contactstudy.verification.cases.boussinesq import boussinesq
+from contactstudy.verification.cases.point_loads import boussinesq
 
 BODIES = Geometry(rail_curve("60E1"), wheel_curve("cylinder"), 0.43)
 

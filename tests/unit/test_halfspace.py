@@ -2,9 +2,9 @@ import numpy as np
 import pytest
 
 from contactstudy.exceptions import InputError
-from contactstudy.verification.cases.boussinesq import boussinesq
 from contactstudy.verification.cases.graded import graded_lines
-from contactstudy.verification.cases.halfspace import half_space_patch
+from contactstudy.verification.cases.halfspace_block import half_space_patch
+from contactstudy.verification.cases.point_loads import boussinesq
 
 
 def test_graded_lines() -> None:

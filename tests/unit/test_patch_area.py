@@ -7,8 +7,8 @@ from contactstudy.contact.area import area_below, patch_area
 from contactstudy.exceptions import NumericalError
 from contactstudy.geometry.quadrature import point_line
 from contactstudy.halfspace.hertz import contact_modulus, hertz_contact
-from contactstudy.verification.cases.blocks import blocks
-from contactstudy.verification.cases.hertz import relative_radii
+from contactstudy.verification.cases.hertz_ellipses import relative_radii
+from contactstudy.verification.cases.pressed_blocks import blocks
 
 MODULUS, RADIUS = contact_modulus(), 0.3
 LOADS = np.geomspace(20e3, 200e3, 13)

@@ -7,7 +7,7 @@ from contactstudy.contact.complementarity import PressedForces, press
 from contactstudy.exceptions import InputError
 from contactstudy.halfspace.hertz import contact_modulus, hertz_contact
 from contactstudy.halfspace.love import influence_matrix
-from contactstudy.verification.cases.filter_of_patch import (
+from contactstudy.verification.cases.wave_filter import (
     ellipse_filter,
     load_weights,
     pressed_filter,

@@ -17,7 +17,7 @@ from contactstudy.profiles.scanned_wheel import fit_wheel_tread
 from contactstudy.scans import SurfaceScan, meeting, uncovered
 from contactstudy.scans.surface import developed
 from contactstudy.study.kinds.passage.scan import ScanTable
-from contactstudy.verification.cases.scans import synthetic_scan
+from contactstudy.verification.cases.scanned_profiles import synthetic_scan
 
 RAIL, S1002 = rail_curve("60E1"), wheel_curve("S1002")
 RADIUS, POSE = 0.46, Pose(math.atan(1 / 40))

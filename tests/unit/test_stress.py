@@ -6,7 +6,7 @@ import pytest
 from contactstudy.solids.hexahedron import elasticity_matrix, hex_stiffness, strain_operators
 from contactstudy.solids.stress import hex_stress, nodal_stress
 from contactstudy.verification.cases.graded import graded_lines
-from contactstudy.verification.cases.halfspace import HalfSpaceBlock
+from contactstudy.verification.cases.halfspace_block import HalfSpaceBlock
 
 E, NU = 210e9, 0.3
 CUBE = np.array(

@@ -13,7 +13,7 @@ from contactstudy.study.kinds.passage import build
 from contactstudy.study.kinds.passage.placing import geometry
 from contactstudy.study.loading import load_study, parse_study
 from contactstudy.study.plan import plan_study
-from contactstudy.verification.cases.scans import synthetic_scan
+from contactstudy.verification.cases.scanned_profiles import synthetic_scan
 
 STUDY = """
 [solid]

@@ -1,12 +1,12 @@
-"""Series of refinements: known orders from made-up runs, and a small real one."""
+"""Refinement of refinements: known orders from made-up runs, and a small real one."""
 
 import numpy as np
 import pytest
 import xarray as xr
 
-from contactstudy.verification.cases.refinements import refined
-from contactstudy.verification.cases.series import Series, common, differences
-from contactstudy.verification.cases.series_report import (
+from contactstudy.verification.cases.refined_runs import refined
+from contactstudy.verification.cases.refinement import Refinement, common, differences
+from contactstudy.verification.cases.refinement_report import (
     figure,
     left_checks,
     peak_over_hertz,
@@ -33,10 +33,10 @@ def fake(step: float, error: float) -> xr.Dataset:
     )
 
 
-def made_up(order: float, constant: float = 1e-4) -> Series:
+def made_up(order: float, constant: float = 1e-4) -> Refinement:
     sizes = (4.0, 2.0, 1.0, 0.5)
     runs = tuple(fake(2e-4 / 2**k, constant * h**order) for k, h in enumerate(sizes))
-    return Series(sizes, sizes, 1, runs)
+    return Refinement(sizes, sizes, 1, runs)
 
 
 @pytest.mark.parametrize("order", [1.0, 2.0, 3.0])
@@ -50,7 +50,7 @@ def test_known_order_and_error(order: float) -> None:
 
 def test_without_an_order_the_last_step_is_added() -> None:
     runs = tuple(fake(1e-4, e) for e in (2e-3, 1e-3, 3e-3))
-    found = Series((3.0, 2.0, 1.0), (3.0, 2.0, 1.0), 1, runs)
+    found = Refinement((3.0, 2.0, 1.0), (3.0, 2.0, 1.0), 1, runs)
     assert np.isnan(found.orders[0, 0])
     np.testing.assert_allclose(found.left_at_default, 2 * found.against_finest[1], rtol=1e-6)
 

@@ -16,7 +16,7 @@ from contactstudy.solids.wheel_modes import (
     residual_flexibility,
     wheel_modes,
 )
-from contactstudy.verification.cases.wheel import whole_ring
+from contactstudy.verification.cases.wheel_frequencies import whole_ring
 
 HALF = WheelRecipe(size=0.008, contact_half_length=0.016, contact_half_width=0.016)
 WHOLE = replace(HALF, profile="S1002", symmetric=False)

@@ -13,7 +13,7 @@ from contactstudy.solids import wheel as wheel_module
 from contactstudy.solids.wheel import WheelRecipe, elastic_wheel
 from contactstudy.solids.wheel_section import WheelSection
 from contactstudy.solids.wheel_section_whole import whole_wheel_section
-from contactstudy.verification.cases.wheel import whole_ring
+from contactstudy.verification.cases.wheel_frequencies import whole_ring
 
 COARSE = WheelRecipe(
     profile="S1002",

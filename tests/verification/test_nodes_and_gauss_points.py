@@ -4,7 +4,7 @@ import numpy as np
 
 from contactstudy.compare.convergence import fitted_order
 from contactstudy.halfspace.hertz import contact_modulus, hertz_contact
-from contactstudy.verification.cases.blocks import blocks
+from contactstudy.verification.cases.pressed_blocks import blocks
 
 RADII, ELEMENTS = (0.43, 0.30), (2, 3, 4, 6)
 LARGEST = hertz_contact(80e3, contact_modulus(), *RADII)

@@ -22,7 +22,7 @@ from contactstudy.geometry.placement import Geometry
 from contactstudy.geometry.points import ContactPoints, contact_points
 from contactstudy.profiles.named import rail_curve, wheel_curve
 from contactstudy.verification.cases.graded import graded_lines
-from contactstudy.verification.cases.halfspace import half_space_patch
+from contactstudy.verification.cases.halfspace_block import half_space_patch
 
 BODIES = Geometry(rail_curve(), wheel_curve("cylinder"), 0.43)
 LOADS = np.array([50e3, 60e3, 80e3, 100e3])

@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
-from contactstudy.verification.cases import below, subsurface
-from contactstudy.verification.cases.strip import Strip, flamant
+from contactstudy.verification.cases import block_stresses, stress_below
+from contactstudy.verification.cases.point_loads import flamant
+from contactstudy.verification.cases.strip import Strip
 from contactstudy.verification.check import describe
 
 
@@ -14,28 +15,28 @@ def judged(case):
 
 
 def test_line():
-    judged(subsurface.line_case())
+    judged(stress_below.line())
 
 
 def test_ellipses():
-    judged(subsurface.ellipse_case())
+    judged(stress_below.ellipse())
 
 
 def test_sphere_on_coarse_meshes():
-    rows = below.sphere((2.0, 3.0, 4.0))
-    exact = subsurface.exact_sphere_shear()
+    rows = block_stresses.sphere_stresses((2.0, 3.0, 4.0))
+    exact = stress_below.exact_sphere_shear()
     for row in rows:
         print(row)
     # second order: (2/4)^2 of the error
-    assert below.order(rows, exact) == pytest.approx(2.0, abs=0.5)
+    assert block_stresses.shear_order(rows, exact) == pytest.approx(2.0, abs=0.5)
     assert rows[-1].field_shear == pytest.approx(exact, rel=0.03)
     assert exact == pytest.approx(0.310, abs=5e-4)
-    assert subsurface.exact_line_shear() == pytest.approx(0.300, abs=5e-4)
+    assert stress_below.exact_line_shear() == pytest.approx(0.300, abs=5e-4)
 
 
 @pytest.mark.slow
 def test_sphere():
-    judged(subsurface.sphere_case())
+    judged(stress_below.sphere())
 
 
 def test_flamant_is_the_simple_radial_stress():

@@ -1,44 +1,42 @@
-"""Static presses of whole sections against CalculiX: S1002 on inclined 60E1."""
+"""Static press of whole sections against CalculiX: S1002 with yaw on inclined 60E1."""
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from contactstudy.contact.groups import contact_area
 from contactstudy.export.calculix import calculix_input
 from contactstudy.export.press_mesh import press_mesh
 from contactstudy.export.run_calculix import run_calculix
-from contactstudy.geometry.placement import Geometry
-from contactstudy.geometry.tread import wheel_points
-from contactstudy.profiles.rail import rail_profile
 from contactstudy.solids.bodies import wheel_body
 from contactstudy.solids.cache import cached
 from contactstudy.solids.wheel import WheelFlexibility
-from contactstudy.solvers.surface import geometry_press
 from contactstudy.study.kinds.passage import build
 from contactstudy.study.kinds.passage.placing import geometry
-from contactstudy.study.kinds.passage.schema import Study
 from contactstudy.study.kinds.passage.vehicles import vehicle
 from contactstudy.study.loading import load_study
 from contactstudy.track.model import Track
 from contactstudy.track.solid import solid_rail
 from contactstudy.track.unreduced import UnreducedTrack
-from contactstudy.verification.cases.calculix import compared, pressures_apart, read_as_facets
-from contactstudy.verification.cases.facets import FacetPress, facet_press
+from contactstudy.verification.cases.calculix_faces import (
+    press_checks,
+    pressure_table,
+    pressures_apart,
+    read_as_facets,
+    smooth_press,
+)
+from contactstudy.verification.cases.flat_press import FacetPress, flat_press
 from contactstudy.verification.check import CaseResult, Check, Table
 
 STUDY = "s1002_inclined"
+SIZE, LENGTH = 4e-3, 0.1
+"""Of the elements and of the rail in m."""
 CHANGES = (
-    "solid.mesh_size=4 mm",
+    f"solid.mesh_size={SIZE!r}",
     "solid.contact_half_width=16 mm",
     "solid.penalty=1e14 Pa/m",
 )
-LENGTH = 0.1
-"""m of rail."""
-BANDS = 1e-3, 0.02, 0.01
-"""Of approach, area and peak pressure."""
 START = 110e-6
-"""m that the hub comes down in CalculiX's first step; the result does not depend on it."""
+"""m that the hub comes down in CalculiX's first step."""
 
 METHOD = """\
 The wheel of the study {study}, {placed}, is pressed on the middle of a rail \
@@ -53,129 +51,117 @@ profiles" are what they are in the case calculix_coarse, with the rail's nodes a
 wheel condensed; smooth profiles are reported and not judged.
 
 The program is linear: normals and places of the undeformed bodies. CalculiX pairs the faces where \
-the first step has moved them: the wheel's rim gives way sideways.
-"""
+the first step has moved them: the wheel's rim gives way sideways."""
 
 
-CORNER = """
-As drawn the wheel touches at the gauge corner alone. The inclined force pushes rail and rim apart
-until the tread carries as well, in both programs. On faces of 4 mm the two patches are one or two
-faces wide; approach, area and single pressures are reported, and how much of the pressure stands
-below s = -26 mm, on the gauge corner. Judged is the lateral force. CalculiX follows the faces as
-they move sideways, which the linear program does not.
-"""
-GAUGE_CORNER = -0.026
-"""Arc length on the wheel's profile in m that divides the patches."""
+@dataclass(frozen=True)
+class WholePress:
+    """A press of whole sections by both programs.
+
+    Attributes
+    ----------
+    theirs, flat, smooth : FacetPress
+        Of CalculiX, of the program between flat faces, and between smooth profiles.
+    wheel : WheelFlexibility
+    load, force : float
+        Of the wheel, and what CalculiX has between the surfaces, vertical, in N.
+    nodes : int
+        Of CalculiX's mesh.
+    source : str
+    """
+
+    theirs: FacetPress
+    flat: FacetPress
+    smooth: FacetPress
+    wheel: WheelFlexibility
+    load: float
+    force: float
+    nodes: int
+    source: str
+
+    def method(self, placed: str) -> str:
+        """What is computed, for a wheel placed so."""
+        return METHOD.format(
+            study=STUDY,
+            placed=placed,
+            length=LENGTH,
+            size=1e3 * SIZE,
+            load=1e-3 * self.load,
+            nodes=self.nodes,
+        )
+
+    def vertical(self) -> Check:
+        """Whether the load is reached."""
+        return Check(
+            "vertical contact force", 1e-3 * self.load, 1e-3 * self.force, "kN", self.source, 1e-3
+        )
+
+    def lateral(self, how: str, ours: FacetPress, band: float | None = None) -> Check:
+        """Lateral force on the wheel."""
+        forces = 1e-3 * ours.lateral_force, 1e-3 * self.theirs.lateral_force
+        return Check(f"lateral force on the wheel, {how}", *forces, "kN", self.source, band)
+
+    def table(self) -> Table:
+        """Pressures across the tread, just ahead of the middle."""
+        middle, y = len(self.wheel.x) // 2, self.wheel.y
+        presses = {self.source: self.theirs, "flat faces": self.flat, "smooth": self.smooth}
+        return pressure_table(
+            "Mean pressure of the faces ahead of the wheel's lowest point",
+            "s of the face (mm)",
+            0.5 * (y[1:] + y[:-1]),
+            {name: press.face_pressure[middle] for name, press in presses.items()},
+        )
 
 
-def press_with_yaw() -> CaseResult:
-    """4 mm on 0.1 m of rail; about a minute of CalculiX."""
-    study = load_study(STUDY, (*CHANGES, "wheelset.yaw=5 mrad"))
-    return _press("calculix_whole", study, "turned by a yaw of 5 mrad", "whole sections", BANDS)
+def whole_press(*changes: str, start: float = START) -> WholePress:
+    """Press the study's wheel in both programs.
 
-
-def press_on_gauge_corner() -> CaseResult:
-    """The same with two patches."""
-    study = load_study(STUDY, (*CHANGES, "wheelset.lateral_shift=5.5 mm"))
-    placed = "5.5 mm to the side"
-    return _press("calculix_corner", study, placed, "tread and gauge corner", None)
-
-
-def _press(
-    name: str,
-    study: Study,
-    standing: str,
-    title: str,
-    bands: tuple[float, float, float] | None,
-) -> CaseResult:
-    """One press in both programs; without bands the share of the gauge corner is compared."""
+    Parameters
+    ----------
+    changes : str
+        Keys of the study, ``key=value``.
+    start : float
+        As of `calculix_input`.
+    """
+    study = load_study(STUDY, (*CHANGES, *changes))
     cell, placed = build.recipe(study), geometry(study)
     # wide steps far from the contact: quicker, and the same for both programs
     recipe = replace(build.wheel_recipe(study), far_step=np.pi / 6)
     penalty, load = study.solid.penalty, float(vehicle(study).static_loads[0])
     mesh = press_mesh(cell, recipe, LENGTH, placed)
     material = cell.youngs_modulus, cell.poisson_ratio
-    run = run_calculix(calculix_input(mesh, load, penalty, *material, START), penalty, False)
-    theirs = read_as_facets(mesh, run)
-
+    run = run_calculix(calculix_input(mesh, load, penalty, *material, start), penalty, False)
     track = UnreducedTrack(Track(rail=solid_rail(cell), length=LENGTH, support=None), cell)
     wheel = cached(wheel_body(recipe))
-    flat = facet_press(track, wheel, load, penalty, 0.5 * LENGTH, geometry=placed)
-    smooth = _smooth(track, wheel, load, penalty, placed)
-    source = f"CalculiX {run.version}"
-    apart = pressures_apart(flat, theirs, source) if bands else _share(wheel, flat, theirs, source)
+    at = wheel, load, penalty, 0.5 * LENGTH
+    return WholePress(
+        theirs=read_as_facets(mesh, run),
+        flat=flat_press(track, *at, geometry=placed),
+        smooth=smooth_press(track, *at, geometry=placed),
+        wheel=wheel,
+        load=load,
+        force=run.press.force,
+        nodes=len(mesh.nodes),
+        source=f"CalculiX {run.version}",
+    )
+
+
+def press_with_yaw() -> CaseResult:
+    """4 mm on 0.1 m of rail; about a minute of CalculiX."""
+    found = whole_press("wheelset.yaw=5 mrad")
+    flat, smooth, theirs = found.flat, found.smooth, found.theirs
     checks = (
-        Check("vertical contact force", 1e-3 * load, 1e-3 * run.press.force, "kN", source, 1e-3),
-        _lateral("flat faces", flat, theirs, source, 0.03),
-        *compared("flat faces", flat, theirs, source, bands or (None, None, None)),
-        apart,
-        _lateral("smooth profiles", smooth, theirs, source, None),
-        *compared("smooth profiles", smooth, theirs, source, (None, None, None)),
+        found.vertical(),
+        found.lateral("flat faces", flat, 0.03),
+        *press_checks("flat faces", flat, theirs, found.source, (1e-3, 0.02, 0.01)),
+        pressures_apart(flat, theirs, found.source),
+        found.lateral("smooth profiles", smooth),
+        *press_checks("smooth profiles", smooth, theirs, found.source, (None, None, None)),
     )
     return CaseResult(
-        name=name,
-        title=f"S1002 on inclined {rail_profile(cell.profile).name} in CalculiX: {title}",
-        method=METHOD.format(
-            study=STUDY,
-            placed=standing,
-            length=LENGTH,
-            size=1e3 * cell.size,
-            load=1e-3 * load,
-            nodes=len(mesh.nodes),
-        )
-        + ("" if bands else CORNER),
+        name="calculix_whole",
+        title="S1002 on inclined 60E1 in CalculiX: whole sections",
+        method=found.method("turned by a yaw of 5 mrad"),
         checks=checks,
-        tables=(_pressures(wheel, flat, smooth, theirs, source),),
+        tables=(found.table(),),
     )
-
-
-def _share(wheel: WheelFlexibility, ours: FacetPress, theirs: FacetPress, source: str) -> Check:
-    """Part of the faces' pressures that stands on the gauge corner."""
-    below = 0.5 * (wheel.y[1:] + wheel.y[:-1]) < GAUGE_CORNER
-
-    def share(press: FacetPress) -> float:
-        return float(press.face_pressure[:, below].sum() / press.face_pressure.sum())
-
-    return Check(
-        "share of the gauge corner, flat faces", share(ours), share(theirs), "", source, None
-    )
-
-
-def _lateral(
-    how: str, ours: FacetPress, theirs: FacetPress, source: str, band: float | None
-) -> Check:
-    forces = 1e-3 * ours.lateral_force, 1e-3 * theirs.lateral_force
-    return Check(f"lateral force on the wheel, {how}", *forces, "kN", source, band)
-
-
-def _smooth(
-    track: UnreducedTrack, wheel: WheelFlexibility, load: float, penalty: float, placed: Geometry
-) -> FacetPress:
-    """The program's own press."""
-    points = wheel_points(wheel, "gauss", placed)
-    curve = geometry_press(track, wheel, np.array([load]), penalty, 0.5 * LENGTH, geometry=placed)
-    solution = curve.solutions[0]
-    shape = len(wheel.x) - 1, 2, len(wheel.y) - 1, 2
-    force, area = (
-        values.reshape(shape).sum(axis=(1, 3)) for values in (solution.forces, points.area)
-    )
-    normal = placed.pose.track_of_rail(placed.rail.normal(points.arc))
-    sideways = solution.forces.reshape(len(points.x), -1).sum(axis=0) @ normal[:, 0]
-    # not the curve's approach: that is measured to the rail's centre line
-    patch = contact_area(points, curve.gaps[0], solution.forces)
-    return FacetPress(solution.approach, patch, force / area, float(sideways))
-
-
-def _pressures(
-    wheel: WheelFlexibility, flat: FacetPress, smooth: FacetPress, theirs: FacetPress, source: str
-) -> Table:
-    """Faces across the tread, just ahead of the middle."""
-    middle = len(wheel.x) // 2
-    centre = 0.5 * (wheel.y[1:] + wheel.y[:-1])
-    columns = (theirs, flat, smooth)
-    rows = tuple(
-        (1e3 * float(s), *(1e-6 * float(p.face_pressure[middle, j]) for p in columns))
-        for j, s in enumerate(centre)
-    )
-    header = ("s of the face (mm)", f"{source} (MPa)", "flat faces (MPa)", "smooth (MPa)")
-    return Table("Mean pressure of the faces ahead of the wheel's lowest point", header, rows)

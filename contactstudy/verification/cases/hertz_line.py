@@ -13,7 +13,7 @@ from contactstudy.geometry.quadrature import point_line
 from contactstudy.halfspace.hertz import contact_modulus, line_contact
 from contactstudy.plot.curves import Plot, curve
 from contactstudy.verification.cases.graded import graded_lines
-from contactstudy.verification.cases.hertz import APPROACH_BAND, BAND, HERTZ, PENALTY
+from contactstudy.verification.cases.hertz_ellipses import APPROACH_BAND, BAND, HERTZ, PENALTY
 from contactstudy.verification.cases.strip import Strip
 from contactstudy.verification.check import CaseResult, Check, Table
 

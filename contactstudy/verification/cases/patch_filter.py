@@ -14,7 +14,7 @@ from contactstudy.solvers.at_rest import bodies_at_rest
 from contactstudy.study.kinds.passage import build
 from contactstudy.study.kinds.passage.runs import SurfaceRun
 from contactstudy.study.kinds.passage.schema import Study
-from contactstudy.verification.cases.filter_of_patch import (
+from contactstudy.verification.cases.wave_filter import (
     ellipse_filter,
     load_weights,
     pressed_filter,

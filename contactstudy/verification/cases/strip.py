@@ -11,34 +11,7 @@ from scipy.sparse.linalg import splu
 from contactstudy.arrays import Array, IntArray
 from contactstudy.solids.hexahedron import hex_stiffness, strain_operators
 from contactstudy.solids.stress import hex_stress, nodal_stress
-
-
-def flamant(x: Array, depth: Array, youngs_modulus: float, poisson_ratio: float) -> Array:
-    """Displacement in plane strain under a unit line load, but for a rigid shift.
-
-    Johnson, Contact Mechanics (1985), eq. (2.19), theta from the load's line of action::
-
-        pi E u_r/(1 + nu)     = -2 (1-nu) cos(th) ln r - (1-2nu) th sin(th)
-        pi E u_theta/(1 + nu) = 2 (1-nu) sin(th) ln r + sin(th) - (1-2nu) th cos(th)
-
-    Parameters
-    ----------
-    x, depth : ndarray (...)
-        In m, not the origin.
-    youngs_modulus, poisson_ratio : float
-        E in Pa.
-
-    Returns
-    -------
-    ndarray (..., 2)
-        Along (x, depth) in m for 1 N/m into the body.
-    """
-    nu, theta, log_r = poisson_ratio, np.arctan2(x, depth), 0.5 * np.log(x**2 + depth**2)
-    s, c = np.sin(theta), np.cos(theta)
-    radial = -2 * (1 - nu) * c * log_r - (1 - 2 * nu) * theta * s
-    around = 2 * (1 - nu) * s * log_r + s - (1 - 2 * nu) * theta * c
-    u = np.stack([radial * s + around * c, radial * c - around * s], axis=-1)
-    return np.asarray((1 + nu) / (np.pi * youngs_modulus) * u)
+from contactstudy.verification.cases.point_loads import flamant
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ from scipy.special import elliprd
 from contactstudy.compare.convergence import fitted_order
 from contactstudy.halfspace.hertz import HertzContact, contact_modulus, hertz_contact
 from contactstudy.plot.curves import Plot, curve
-from contactstudy.verification.cases.blocks import Pressed, blocks
+from contactstudy.verification.cases.pressed_blocks import BlockPress, blocks
 from contactstudy.verification.check import CaseResult, Check, Table
 
 RATIOS = (1.0, 1.5, 2.0, 3.0, 4.0)
@@ -108,7 +108,7 @@ def _study(name: str, title: str, ratios: tuple[float, ...], meshes: tuple[int, 
     )
 
 
-def _pressed(ratio: float, elements: int, load: float) -> tuple[HertzContact, Pressed]:
+def _pressed(ratio: float, elements: int, load: float) -> tuple[HertzContact, BlockPress]:
     radii = relative_radii(ratio)
     exact = hertz_contact(load, contact_modulus(), *radii)
     largest = hertz_contact(max(LOADS), contact_modulus(), *radii)
@@ -117,7 +117,7 @@ def _pressed(ratio: float, elements: int, load: float) -> tuple[HertzContact, Pr
 
 
 def _checks(
-    ratio: float, exact: HertzContact, found: Pressed, nodal_band: float | None
+    ratio: float, exact: HertzContact, found: BlockPress, nodal_band: float | None
 ) -> list[Check]:
     where = f"a/b = {ratio:g}, {exact.load * 1e-3:g} kN"
     values = (
@@ -134,7 +134,7 @@ def _checks(
     ]
 
 
-def _compared(exact: HertzContact, found: Pressed, elements: int, ratio: float) -> _Errors:
+def _compared(exact: HertzContact, found: BlockPress, elements: int, ratio: float) -> _Errors:
     # patches grow with the cube root of the load
     over = elements * (exact.load / max(LOADS)) ** (1 / 3)
     a = abs(found.ellipse.along / exact.semi_axis_x - 1)
@@ -150,7 +150,7 @@ def _compared(exact: HertzContact, found: Pressed, elements: int, ratio: float) 
 _HEADER = ("a/b", "elements at 200 kN", "load (kN)", "a", "b", "peak", "peak, nodes", "approach")
 
 
-def _row(ratio: float, elements: int, exact: HertzContact, found: Pressed) -> tuple[float, ...]:
+def _row(ratio: float, elements: int, exact: HertzContact, found: BlockPress) -> tuple[float, ...]:
     pairs = (
         (found.ellipse.along, exact.semi_axis_x),
         (found.ellipse.across, exact.semi_axis_y),

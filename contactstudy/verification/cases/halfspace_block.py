@@ -12,7 +12,7 @@ import numpy as np
 from contactstudy.arrays import Array, IntArray
 from contactstudy.exceptions import InputError
 from contactstudy.solids.chain import BlockTridiagonal
-from contactstudy.verification.cases.boussinesq import boussinesq
+from contactstudy.verification.cases.point_loads import boussinesq
 from contactstudy.verification.cases.slabs import slab_stiffness, slab_stress
 
 

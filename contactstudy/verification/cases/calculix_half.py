@@ -4,25 +4,28 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from contactstudy.contact.groups import contact_area
 from contactstudy.export.calculix import calculix_input
 from contactstudy.export.press_mesh import PressMesh, press_mesh
 from contactstudy.export.run_calculix import CalculixRun, run_calculix
-from contactstudy.geometry.tread import wheel_points
 from contactstudy.halfspace.hertz import HertzContact, contact_modulus, hertz_contact
 from contactstudy.profiles.rail import rail_profile
 from contactstudy.solids.bodies import rail_body, wheel_body
 from contactstudy.solids.cache import cached
 from contactstudy.solids.recipe import CellRecipe
-from contactstudy.solids.wheel import WheelFlexibility
 from contactstudy.solids.wheel_recipe import WheelRecipe
-from contactstudy.solvers.surface import geometry_press
 from contactstudy.track.model import Track
 from contactstudy.track.solid import SolidTrack, solid_rail
 from contactstudy.track.unreduced import UnreducedTrack
 from contactstudy.vehicle import wheel_column
-from contactstudy.verification.cases.facets import FacetPress, facet_press
-from contactstudy.verification.check import CaseResult, Check, Table
+from contactstudy.verification.cases.calculix_faces import (
+    press_checks,
+    pressure_table,
+    pressures_apart,
+    read_as_facets,
+    smooth_press,
+)
+from contactstudy.verification.cases.flat_press import flat_press
+from contactstudy.verification.check import CaseResult, Check
 
 LOAD = float(wheel_column().static_loads[0])
 """N, static load of the default wheel."""
@@ -99,15 +102,15 @@ def _case(name: str, model: _Model, smooth_band: float | None) -> CaseResult:
     mesh, track = model.mesh, model.track
     wheel = cached(wheel_body(model.wheel))
     run, middle = model.calculix(mesh), 0.5 * model.length
-    flat = facet_press(track, wheel, LOAD, PENALTY, middle)
+    flat = flat_press(track, wheel, LOAD, PENALTY, middle)
     theirs = read_as_facets(mesh, run)
-    smooth = _smooth(track, wheel, middle)
-    source = f"CalculiX {run.version}"
+    smooth = smooth_press(track, wheel, LOAD, PENALTY, middle)
+    source, outwards = f"CalculiX {run.version}", slice(len(wheel.x) // 2, None)
     checks = (
         Check("vertical contact force", 1e-3 * LOAD, 1e-3 * run.press.force, "kN", source, 1e-3),
-        *compared("flat faces", flat, theirs, source, (1e-3, 0.02, 0.01)),
+        *press_checks("flat faces", flat, theirs, source, (1e-3, 0.02, 0.01)),
         pressures_apart(flat, theirs, source),
-        *compared("smooth profiles", smooth, theirs, source, (smooth_band, None, None)),
+        *press_checks("smooth profiles", smooth, theirs, source, (smooth_band, None, None)),
         Check(
             "peak mean pressure of a face, smooth profiles, against Hertz's p0",
             1e-6 * float(smooth.face_pressure.max()),
@@ -139,85 +142,16 @@ def _case(name: str, model: _Model, smooth_band: float | None) -> CaseResult:
             sagitta=1e6 * h**2 / 8 * (1 / model.wheel.dimensions.radius + 1 / crown),
         ),
         checks=checks,
-        tables=(_pressures(wheel, flat, smooth, theirs, source),),
-    )
-
-
-def compared(
-    how: str,
-    ours: FacetPress,
-    theirs: FacetPress,
-    source: str,
-    bands: tuple[float | None, float | None, float | None],
-) -> tuple[Check, Check, Check]:
-    """Approach, area and peak pressure of two presses, with their bands."""
-    peak, reference = float(ours.face_pressure.max()), float(theirs.face_pressure.max())
-    return (
-        Check(
-            f"approach, {how}", 1e6 * ours.approach, 1e6 * theirs.approach, "um", source, bands[0]
-        ),
-        Check(f"contact area, {how}", 1e6 * ours.area, 1e6 * theirs.area, "mm^2", source, bands[1]),
-        Check(
-            f"peak mean pressure of a face, {how}",
-            1e-6 * peak,
-            1e-6 * reference,
-            "MPa",
-            source,
-            bands[2],
+        tables=(
+            pressure_table(
+                "Mean pressure of the faces next to the plane of symmetry",
+                "x of the face (mm)",
+                0.5 * (wheel.x[1:] + wheel.x[:-1])[outwards],
+                {
+                    source: theirs.face_pressure[outwards, 0],
+                    "flat faces": flat.face_pressure[outwards, 0],
+                    "smooth": smooth.face_pressure[outwards, 0],
+                },
+            ),
         ),
     )
-
-
-def pressures_apart(ours: FacetPress, theirs: FacetPress, source: str) -> Check:
-    """Root mean square of the difference of the faces' pressures, relative to theirs."""
-    apart = np.linalg.norm(ours.face_pressure - theirs.face_pressure)
-    return Check(
-        "difference of the pressures, flat faces",
-        float(apart / np.linalg.norm(theirs.face_pressure)),
-        0.03,
-        "",
-        source,
-        0.0,
-        sense="at_most",
-    )
-
-
-def read_as_facets(mesh: PressMesh, run: CalculixRun) -> FacetPress:
-    """CalculiX's press as one of ours, its mean pressures on the grid of the tread's faces."""
-    corners, press = mesh.corners(mesh.tread), run.press
-    # area of a plane quadrilateral from its diagonals, of both halves of a half model
-    diagonals = corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]
-    area = np.linalg.norm(np.cross(*diagonals), axis=1) * (1.0 if mesh.symmetric else 0.5)
-    mx, my = mesh.tread_nodes.shape
-    pressure = np.zeros((mx - 1, my - 1))
-    pressure[mesh.places(mesh.tread)] = press.face_pressure(mesh.tread[:, 0], area)
-    return FacetPress(press.approach, press.area, pressure, press.lateral_force)
-
-
-def _smooth(track: SolidTrack | UnreducedTrack, wheel: WheelFlexibility, x: float) -> FacetPress:
-    """The program's own press."""
-    points = wheel_points(wheel)
-    curve = geometry_press(track, wheel, np.array([LOAD]), PENALTY, x)
-    solution = curve.solutions[0]
-    nx, ny = len(wheel.x) - 1, len(wheel.y) - 1
-    force, area = (
-        values.reshape(nx, 2, ny, 2).sum(axis=(1, 3)) for values in (solution.forces, points.area)
-    )
-    # not the curve's approach: that is measured to the rail's centre line
-    patch = contact_area(points, curve.gaps[0], solution.forces)
-    return FacetPress(solution.approach, patch, force / area)
-
-
-def _pressures(
-    wheel: WheelFlexibility, flat: FacetPress, smooth: FacetPress, theirs: FacetPress, source: str
-) -> Table:
-    """Faces beside the plane of symmetry, outwards from the middle."""
-    first = len(wheel.x) // 2
-    centre = 0.5 * (wheel.x[1:] + wheel.x[:-1])
-    columns = (theirs, flat, smooth)
-    rows = tuple(
-        (1e3 * float(centre[i]), *(1e-6 * float(p.face_pressure[i, 0]) for p in columns))
-        for i in range(first, len(centre))
-    )
-    header = ("x of the face (mm)", f"{source} (MPa)", "flat faces (MPa)", "smooth (MPa)")
-    return Table("Mean pressure of the faces next to the plane of symmetry", header, rows)

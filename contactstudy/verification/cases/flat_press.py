@@ -41,7 +41,7 @@ class FacetPress:
     lateral_force: float = 0.0
 
 
-def facet_press(
+def flat_press(
     track: SolidTrack | UnreducedTrack,
     wheel: WheelFlexibility,
     load: float,

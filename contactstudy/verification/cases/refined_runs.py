@@ -10,7 +10,7 @@ import xarray as xr
 
 from contactstudy.study.kinds.passage.execution import execute_run
 from contactstudy.study.loading import load_study
-from contactstudy.verification.cases.series import Series
+from contactstudy.verification.cases.refinement import Refinement
 
 STUDY = "point_vs_surface"
 SHORT = (
@@ -39,7 +39,7 @@ def refined(
     changes: Sequence[str] = (),
     size: Callable[[float], float] = float,
     algebraic: bool = True,
-) -> Series:
+) -> Refinement:
     """Run the shortened study at several levels of one key.
 
     Parameters
@@ -55,27 +55,27 @@ def refined(
     size : callable
         From a level to what goes to zero.
     algebraic : bool
-        As in `Series`.
+        As in `Refinement`.
     """
     runs = tuple(surface_run(*changes, f"{key}={level!r}") for level in levels)
     sizes = tuple(size(level) for level in levels)
-    return Series(tuple(levels), sizes, list(levels).index(default), runs, algebraic)
+    return Refinement(tuple(levels), sizes, list(levels).index(default), runs, algebraic)
 
 
 @cache
-def mesh_series() -> Series:
+def mesh_series() -> Refinement:
     """Element size at the running surface."""
     return refined("solid.mesh_size", MESHES, 0.002)
 
 
 @cache
-def interior_series() -> Series:
+def interior_series() -> Refinement:
     """Largest element size of the rail's section, on a 4 mm running surface."""
     return refined("solid.coarse_mesh_size", INTERIORS, 0.009, ("solid.mesh_size=4 mm",))
 
 
 @cache
-def penalty_series(points: str) -> Series:
+def penalty_series(points: str) -> Refinement:
     """Penalty, at "gauss" points or "nodes"; at nodes the augmented Lagrangian comes last."""
     at = f"solid.contact_points={points}"
     plain = refined("solid.penalty", PENALTIES, 1e16, (at,), lambda e: 1.0 / e)
@@ -95,12 +95,12 @@ def penalty_series(points: str) -> Series:
 
 
 @cache
-def modes_series() -> Series:
+def modes_series() -> Refinement:
     """Generalised modes of the rail's interface planes."""
     return refined("solid.interface_modes", MODES, 14, size=lambda n: 1.0 / n, algebraic=False)
 
 
 @cache
-def time_step_series() -> Series:
+def time_step_series() -> Refinement:
     """Time step."""
     return refined("journey.time_step", TIME_STEPS, 5e-5)

@@ -6,7 +6,12 @@ import numpy as np
 
 from contactstudy.halfspace.pressure_field import SurfacePressure
 from contactstudy.halfspace.subsurface import stress_maxima
-from contactstudy.verification.cases.below import Below, line, observed, sphere
+from contactstudy.verification.cases.block_stresses import (
+    LargestStresses,
+    line_stresses,
+    shear_order,
+    sphere_stresses,
+)
 from contactstudy.verification.check import CaseResult, Check, Table
 
 SOURCE = "Johnson 1985"
@@ -41,9 +46,9 @@ def hertz_pressure(a: float, b: float, cells: int = 48) -> SurfacePressure:
     return SurfacePressure(a * u, b * u, np.sqrt(np.maximum(inside, 0.0)))
 
 
-def sphere_case() -> CaseResult:
+def sphere() -> CaseResult:
     """Sphere on flat: the finite elements' stresses and the recovered field."""
-    rows = sphere()
+    rows = sphere_stresses()
     best = rows[-1]
     checks = [
         Check("maximum shear over p0, finite elements", best.shear, SPHERE_SHEAR, "", SOURCE, 0.03),
@@ -51,7 +56,7 @@ def sphere_case() -> CaseResult:
         Check("von Mises over p0, finite elements", best.mises, 2 * SPHERE_SHEAR, "", SOURCE, 0.03),
         Check(
             "order of the shear's error",
-            observed(rows, exact_sphere_shear()),
+            shear_order(rows, exact_sphere_shear()),
             2.0,
             "",
             "linear hexahedra",
@@ -94,9 +99,9 @@ def sphere_case() -> CaseResult:
     )
 
 
-def line_case() -> CaseResult:
+def line() -> CaseResult:
     """Cylinder on flat in plane strain."""
-    rows = line()
+    rows = line_stresses()
     best = rows[-1]
     return CaseResult(
         "subsurface_line",
@@ -111,7 +116,7 @@ def line_case() -> CaseResult:
             Check("its depth over b, finite elements", best.depth, LINE_DEPTH, "", SOURCE, 0.03),
             Check(
                 "order of the shear's error",
-                observed(rows, exact_line_shear()),
+                shear_order(rows, exact_line_shear()),
                 2.0,
                 "",
                 "linear hexahedra",
@@ -122,7 +127,7 @@ def line_case() -> CaseResult:
     )
 
 
-def ellipse_case() -> CaseResult:
+def ellipse() -> CaseResult:
     """Recovered stresses below Hertz's ellipses."""
     checks = []
     for ratio, (depth, shear) in ELLIPSES.items():
@@ -141,7 +146,7 @@ def ellipse_case() -> CaseResult:
     )
 
 
-def _table(rows: tuple[Below, ...], axis: str) -> Table:
+def _table(rows: tuple[LargestStresses, ...], axis: str) -> Table:
     header = (
         f"elements over {axis}", "shear/p0, elements", f"depth/{axis}", "von Mises/p0",
         "shear/p0, field", f"depth/{axis}", "von Mises/p0",

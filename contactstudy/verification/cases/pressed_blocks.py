@@ -19,7 +19,7 @@ from contactstudy.geometry.interpolation import SplineLine, grid_rows
 from contactstudy.geometry.points import ContactPoints
 from contactstudy.geometry.quadrature import Quadrature, grid_facets, point_line
 from contactstudy.verification.cases.graded import graded_lines
-from contactstudy.verification.cases.halfspace import half_space_patch
+from contactstudy.verification.cases.halfspace_block import half_space_patch
 
 MARGIN = 2
 """Surface lines beyond the contact points, for the spline of the lower body."""
@@ -32,7 +32,7 @@ GROWTH = 1.5
 
 
 @dataclass(frozen=True)
-class Pressed:
+class BlockPress:
     """One solution.
 
     Attributes
@@ -80,19 +80,19 @@ class Blocks:
     points: ContactPoints
     flexibility: Array
 
-    def press(self, load: float, penalty: float) -> Pressed:
+    def press(self, load: float, penalty: float) -> BlockPress:
         """Press with a resultant in N."""
         M = self.flexibility + np.diag(penalty_compliance(self.points, penalty))
         solution = press(M, self.points.gap, self.points.normal_z, load)
         return self._described(solution, load, solution.approach)
 
-    def crush(self, approach: float, penalty: float) -> Pressed:
+    def crush(self, approach: float, penalty: float) -> BlockPress:
         """Press by an approach in m."""
         M = self.flexibility + np.diag(penalty_compliance(self.points, penalty))
         solution = contact_forces(M, self.points.gap - approach)
         return self._described(solution, float(solution.forces.sum()), approach)
 
-    def _described(self, solution: PatchForces, load: float, approach: float) -> Pressed:
+    def _described(self, solution: PatchForces, load: float, approach: float) -> BlockPress:
         points, n = self.points, len(self.points.x)
         gap = points.gap - approach + self.flexibility @ solution.forces
         # the images in x < 0 are put back; a line at x = 0 has none
@@ -110,7 +110,7 @@ class Blocks:
         )
         mirrored = whole(np.asarray(share * solution.forces))
         nodal = float(points.nodal_pressure(solution.forces).max())
-        return Pressed(
+        return BlockPress(
             load,
             approach,
             contact_ellipse(both, mirrored),

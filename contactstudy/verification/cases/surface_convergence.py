@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from contactstudy.verification.cases import refinements
-from contactstudy.verification.cases.series import BAND, QUANTITIES
-from contactstudy.verification.cases.series_report import (
+from contactstudy.verification.cases import refined_runs
+from contactstudy.verification.cases.refinement import BAND, QUANTITIES
+from contactstudy.verification.cases.refinement_report import (
     figure,
     left_checks,
     peak_over_hertz,
@@ -29,7 +29,7 @@ METHOD = (
 
 def mesh() -> CaseResult:
     """Element size at the running surface, and of the section away from it."""
-    fine, inner = refinements.mesh_series(), refinements.interior_series()
+    fine, inner = refined_runs.mesh_series(), refined_runs.interior_series()
     peak = peak_over_hertz(fine)
     name, inner_name = "mesh size (mm)", "coarsest element (mm)"
     pressures = Table(
@@ -70,12 +70,12 @@ def mesh() -> CaseResult:
 
 def penalty() -> CaseResult:
     """Penalty at Gauss points and at nodes; the augmented Lagrangian as its limit."""
-    gauss, nodes = refinements.penalty_series("gauss"), refinements.penalty_series("nodes")
+    gauss, nodes = refined_runs.penalty_series("gauss"), refined_runs.penalty_series("nodes")
     name = "penalty (Pa/m)"
     method = (
         METHOD
         + "\n\nAt the nodes the last level is the augmented Lagrangian, which leaves a penetration "
-        f"of {1e9 * refinements.TOLERANCE:g} nm; it stands at the penalty that would leave as "
+        f"of {1e9 * refined_runs.TOLERANCE:g} nm; it stands at the penalty that would leave as "
         "much. The error is of first order in 1/penalty. Gauss points, the default, are four to "
         "a facet, more than there are nodes to follow them: from 1e16 Pa/m on a higher penalty "
         "only lets go of points, the pressure is spread over fewer of them, and no order is seen. "
@@ -104,7 +104,7 @@ def penalty() -> CaseResult:
         Check(
             "penetration left by the augmented Lagrangian",
             float(nodes.runs[-1].penetration.max()),
-            refinements.TOLERANCE,
+            refined_runs.TOLERANCE,
             "m",
             "its tolerance",
             0.0,
@@ -126,7 +126,7 @@ def penalty() -> CaseResult:
 
 def modes() -> CaseResult:
     """Generalised modes of the rail's interface planes."""
-    found = refinements.modes_series()
+    found = refined_runs.modes_series()
     name = "interface modes"
     method = (
         METHOD
@@ -147,7 +147,7 @@ def modes() -> CaseResult:
 
 def time_step() -> CaseResult:
     """Time step."""
-    found = refinements.time_step_series()
+    found = refined_runs.time_step_series()
     name = "time step (µs)"
     method = (
         METHOD + "\n\nAverage acceleration is of second order for smooth motion, and below "
@@ -181,11 +181,11 @@ def time_step() -> CaseResult:
 def summary() -> CaseResult:
     """What the defaults leave, all of it together."""
     of = {
-        "mesh size at the running surface, 2 mm": refinements.mesh_series(),
-        "largest element of the rail's section, 9 mm": refinements.interior_series(),
-        "penalty, 1e16 Pa/m at Gauss points": refinements.penalty_series("gauss"),
-        "interface modes, 14": refinements.modes_series(),
-        "time step, 50 µs": refinements.time_step_series(),
+        "mesh size at the running surface, 2 mm": refined_runs.mesh_series(),
+        "largest element of the rail's section, 9 mm": refined_runs.interior_series(),
+        "penalty, 1e16 Pa/m at Gauss points": refined_runs.penalty_series("gauss"),
+        "interface modes, 14": refined_runs.modes_series(),
+        "time step, 50 µs": refined_runs.time_step_series(),
     }
     left = 100 * np.array([s.left_at_default for s in of.values()])
     total = np.sqrt((left**2).sum(axis=0))
@@ -197,7 +197,7 @@ def summary() -> CaseResult:
         header,
         (*picked, ("all, root of the sum of squares", *total[[0, 1, 4]].tolist())),
     )
-    peak = peak_over_hertz(refinements.mesh_series())[refinements.mesh_series().default]
+    peak = peak_over_hertz(refined_runs.mesh_series())[refined_runs.mesh_series().default]
     checks = (
         *(
             Check(

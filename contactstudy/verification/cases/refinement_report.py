@@ -6,11 +6,11 @@ import numpy as np
 
 from contactstudy.halfspace.hertz import contact_modulus, hertz_contact
 from contactstudy.plot.curves import Plot, curve
-from contactstudy.verification.cases.series import BAND, QUANTITIES, Series, common
+from contactstudy.verification.cases.refinement import BAND, QUANTITIES, Refinement, common
 from contactstudy.verification.check import Cell, Check, Table
 
 
-def tables(name: str, scale: float, series: Series) -> tuple[Table, ...]:
+def tables(name: str, scale: float, series: Refinement) -> tuple[Table, ...]:
     """Differences from the finest level and observed orders, for levels times `scale`."""
     short = ("force", "dynamic part", f"below {BAND:g} Hz", "peak pressure", "its mean")
     finest = f"{scale * series.levels[-1]:.4g}"
@@ -35,7 +35,7 @@ def tables(name: str, scale: float, series: Series) -> tuple[Table, ...]:
     return tuple(found)
 
 
-def figure(name: str, scale: float, series: Series) -> Plot:
+def figure(name: str, scale: float, series: Refinement) -> Plot:
     """Differences of the levels from the finest one."""
     against = series.against_finest
     curves = tuple(
@@ -52,7 +52,9 @@ def figure(name: str, scale: float, series: Series) -> Plot:
     return Plot(caption, name, "relative difference", curves, "log", "log")
 
 
-def left_checks(series: Series, what: str, limits: tuple[float, float, float]) -> tuple[Check, ...]:
+def left_checks(
+    series: Refinement, what: str, limits: tuple[float, float, float]
+) -> tuple[Check, ...]:
     """Error left at the default: contact force, dynamic part, mean peak pressure."""
     left = series.left_at_default
     source = "difference from the finest level and that one's own error"
@@ -70,7 +72,7 @@ def left_checks(series: Series, what: str, limits: tuple[float, float, float]) -
     )
 
 
-def peak_over_hertz(series: Series) -> list[float]:
+def peak_over_hertz(series: Refinement) -> list[float]:
     """Mean of the peak pressure over that of Hertz's under the same forces, for each level."""
     modulus, radii = contact_modulus(), (0.43, 0.30)
     unit = hertz_contact(1.0, modulus, *radii).peak_pressure

@@ -19,7 +19,7 @@ from contactstudy.halfspace.pressure_field import recovered_pressure
 from contactstudy.halfspace.subsurface import stress_maxima
 from contactstudy.solids.stress import maximum_shear, von_mises
 from contactstudy.verification.cases.graded import graded_lines
-from contactstudy.verification.cases.halfspace import HalfSpaceBlock
+from contactstudy.verification.cases.halfspace_block import HalfSpaceBlock
 from contactstudy.verification.cases.strip import Strip
 
 MODULUS = contact_modulus()
@@ -31,7 +31,7 @@ LINE_ELEMENTS = (4.0, 8.0, 16.0)
 
 
 @dataclass(frozen=True)
-class Below:
+class LargestStresses:
     """Largest stresses below one patch, relative to Hertz's peak pressure and semi-axis.
 
     Attributes
@@ -64,7 +64,7 @@ def peak(depth: Array, value: Array) -> tuple[float, float]:
 
 
 @cache
-def sphere(elements: tuple[float, ...] = SPHERE_ELEMENTS) -> tuple[Below, ...]:
+def sphere_stresses(elements: tuple[float, ...] = SPHERE_ELEMENTS) -> tuple[LargestStresses, ...]:
     """Press two equal blocks over a sphere's gap; one mesh, patches of growing size.
 
     Parameters
@@ -98,7 +98,7 @@ def sphere(elements: tuple[float, ...] = SPHERE_ELEMENTS) -> tuple[Below, ...]:
             recovered_pressure(whole, whole, pressure[index[:, None], index])
         )
         found.append(
-            Below(
+            LargestStresses(
                 count,
                 shear / p0,
                 depth / a,
@@ -112,7 +112,7 @@ def sphere(elements: tuple[float, ...] = SPHERE_ELEMENTS) -> tuple[Below, ...]:
 
 
 @cache
-def line(elements: tuple[float, ...] = LINE_ELEMENTS) -> tuple[Below, ...]:
+def line_stresses(elements: tuple[float, ...] = LINE_ELEMENTS) -> tuple[LargestStresses, ...]:
     """Press two equal strips in plane strain over a cylinder's gap.
 
     Parameters
@@ -141,7 +141,7 @@ def line(elements: tuple[float, ...] = LINE_ELEMENTS) -> tuple[Below, ...]:
         shear, depth = peak(strip.depth, maximum_shear(axis))
         mises = peak(strip.depth, von_mises(axis))[0]
         p0 = hertz.peak_pressure
-        found.append(Below(count, shear / p0, depth / half_width, mises / p0))
+        found.append(LargestStresses(count, shear / p0, depth / half_width, mises / p0))
     return tuple(found)
 
 
@@ -153,7 +153,7 @@ def _nodal(rows: Rows, forces: Array, area: Array) -> Array:
     return np.asarray(load / weight)
 
 
-def observed(rows: tuple[Below, ...], reference: float) -> float:
+def shear_order(rows: tuple[LargestStresses, ...], reference: float) -> float:
     """Order of the shear's error between the two finest meshes."""
     sizes = [1.0 / row.elements for row in rows[-2:]]
     return fitted_order(sizes, [abs(row.shear - reference) for row in rows[-2:]])

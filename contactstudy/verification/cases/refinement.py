@@ -27,7 +27,7 @@ QUANTITIES = (
 
 
 @dataclass(frozen=True)
-class Series:
+class Refinement:
     """Runs at several levels, coarsest first.
 
     Attributes

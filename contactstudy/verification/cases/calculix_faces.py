@@ -1,0 +1,117 @@
+"""A static press as CalculiX and as the program have it, by the faces of the tread."""
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from contactstudy.arrays import Array
+from contactstudy.contact.groups import contact_area
+from contactstudy.export.press_mesh import PressMesh
+from contactstudy.export.run_calculix import CalculixRun
+from contactstudy.geometry.placement import Geometry
+from contactstudy.geometry.tread import wheel_points
+from contactstudy.solids.wheel import WheelFlexibility
+from contactstudy.solvers.surface import geometry_press
+from contactstudy.track.solid import SolidTrack
+from contactstudy.track.unreduced import UnreducedTrack
+from contactstudy.verification.cases.flat_press import FacetPress
+from contactstudy.verification.check import Check, Table
+
+
+def smooth_press(
+    track: SolidTrack | UnreducedTrack,
+    wheel: WheelFlexibility,
+    load: float,
+    penalty: float,
+    x: float,
+    geometry: Geometry | None = None,
+) -> FacetPress:
+    """The program's own press between smooth profiles, by the faces of the tread.
+
+    Parameters are those of `contactstudy.verification.cases.flat_press.flat_press`.
+    """
+    geometry = geometry or Geometry.of(wheel.recipe)
+    points = wheel_points(wheel, "gauss", geometry)
+    curve = geometry_press(track, wheel, np.array([load]), penalty, x, geometry=geometry)
+    solution = curve.solutions[0]
+    shape = len(wheel.x) - 1, 2, len(wheel.y) - 1, 2
+    force, area = (
+        values.reshape(shape).sum(axis=(1, 3)) for values in (solution.forces, points.area)
+    )
+    sideways = 0.0  # of two halves together
+    if not wheel.recipe.symmetric:
+        normal = geometry.pose.track_of_rail(geometry.rail.normal(points.arc))
+        sideways = float(solution.forces.reshape(len(points.x), -1).sum(axis=0) @ normal[:, 0])
+    # not the curve's approach: that is measured to the rail's centre line
+    patch = contact_area(points, curve.gaps[0], solution.forces)
+    return FacetPress(solution.approach, patch, force / area, sideways)
+
+
+def press_checks(
+    how: str,
+    ours: FacetPress,
+    theirs: FacetPress,
+    source: str,
+    bands: tuple[float | None, float | None, float | None],
+) -> tuple[Check, Check, Check]:
+    """Approach, area and peak pressure of two presses, with their bands."""
+    peak, reference = float(ours.face_pressure.max()), float(theirs.face_pressure.max())
+    return (
+        Check(
+            f"approach, {how}", 1e6 * ours.approach, 1e6 * theirs.approach, "um", source, bands[0]
+        ),
+        Check(f"contact area, {how}", 1e6 * ours.area, 1e6 * theirs.area, "mm^2", source, bands[1]),
+        Check(
+            f"peak mean pressure of a face, {how}",
+            1e-6 * peak,
+            1e-6 * reference,
+            "MPa",
+            source,
+            bands[2],
+        ),
+    )
+
+
+def pressures_apart(ours: FacetPress, theirs: FacetPress, source: str) -> Check:
+    """Root mean square of the difference of the faces' pressures, relative to theirs."""
+    apart = np.linalg.norm(ours.face_pressure - theirs.face_pressure)
+    return Check(
+        "difference of the pressures, flat faces",
+        float(apart / np.linalg.norm(theirs.face_pressure)),
+        0.03,
+        "",
+        source,
+        0.0,
+        sense="at_most",
+    )
+
+
+def read_as_facets(mesh: PressMesh, run: CalculixRun) -> FacetPress:
+    """CalculiX's press as one of ours, its mean pressures on the grid of the tread's faces."""
+    corners, press = mesh.corners(mesh.tread), run.press
+    # area of a plane quadrilateral from its diagonals, of both halves of a half model
+    diagonals = corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]
+    area = np.linalg.norm(np.cross(*diagonals), axis=1) * (1.0 if mesh.symmetric else 0.5)
+    mx, my = mesh.tread_nodes.shape
+    pressure = np.zeros((mx - 1, my - 1))
+    pressure[mesh.places(mesh.tread)] = press.face_pressure(mesh.tread[:, 0], area)
+    return FacetPress(press.approach, press.area, pressure, press.lateral_force)
+
+
+def pressure_table(caption: str, place: str, at: Array, presses: Mapping[str, Array]) -> Table:
+    """Mean pressures of a row of faces.
+
+    Parameters
+    ----------
+    caption, place : str
+        Of the table and of the column of places.
+    at : ndarray (k,)
+        Places of the faces in m.
+    presses : mapping of str to ndarray (k,)
+        Pressures in Pa.
+    """
+    rows = tuple(
+        (1e3 * float(x), *(1e-6 * float(pressure[i]) for pressure in presses.values()))
+        for i, x in enumerate(at)
+    )
+    return Table(caption, (place, *(f"{name} (MPa)" for name in presses)), rows)
