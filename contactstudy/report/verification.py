@@ -13,20 +13,22 @@ from contactstudy.plot.text import exact
 from contactstudy.report.quantity import percent, pretty_unit, rounded
 from contactstudy.report.tables import Block, table, text
 from contactstudy.report.typesetting import typeset
-from contactstudy.verification.check import Cell, Check, Table
-from contactstudy.verification.outcome import Outcome
+from contactstudy.verification.check import Cell, Check, ResultTable
+from contactstudy.verification.outcome import CaseOutcome
 
 PDF_FILE = "verification.pdf"
 _WORDS = {True: "kept", False: "LEFT", None: "none"}
 _LIMITS = {"equal": "", "at_most": "at most ", "at_least": "at least "}
 
 
-def write_verification(outcomes: Sequence[Outcome], about: dict[str, Any], out_dir: Path) -> Path:
+def write_verification(
+    outcomes: Sequence[CaseOutcome], about: dict[str, Any], out_dir: Path
+) -> Path:
     """Set out_dir/verification.pdf; its figures go into out_dir/figures as well.
 
     Parameters
     ----------
-    outcomes : sequence of Outcome
+    outcomes : sequence of CaseOutcome
     about : dict
         Versions and hash, see `contactstudy.verification.runner.about`.
     out_dir : Path
@@ -44,7 +46,7 @@ def write_verification(outcomes: Sequence[Outcome], about: dict[str, Any], out_d
     return out_dir / PDF_FILE
 
 
-def content(outcomes: Sequence[Outcome], about: dict[str, Any]) -> dict[str, Any]:
+def content(outcomes: Sequence[CaseOutcome], about: dict[str, Any]) -> dict[str, Any]:
     """Everything that the template inserts."""
     versions = about["versions"]
     return {
@@ -72,7 +74,7 @@ def content(outcomes: Sequence[Outcome], about: dict[str, Any]) -> dict[str, Any
     }
 
 
-def _summary(outcomes: Sequence[Outcome]) -> list[Block]:
+def _summary(outcomes: Sequence[CaseOutcome]) -> list[Block]:
     checks = [c for o in outcomes if o.result for c in o.result.checks]
     banded = [c for c in checks if c.passed is not None]
     kept = sum(c.passed is True for c in banded)
@@ -97,7 +99,7 @@ def _summary(outcomes: Sequence[Outcome]) -> list[Block]:
             ]
         )
     made = table(
-        ["Case", "What", "Status", "Kept", "Largest share of a band (%)"],
+        ["Case", "What", "CaseStatus", "Kept", "Largest share of a band (%)"],
         rows,
         "Named cases.",
         3,
@@ -112,7 +114,7 @@ def _largest_share(checks: Sequence[Check]) -> float:
     return max(shares, default=float("nan"))
 
 
-def _case(outcome: Outcome) -> list[Block]:
+def _case(outcome: CaseOutcome) -> list[Block]:
     result = outcome.result
     assert result is not None
     blocks = [text(" ".join(p.split())) for p in result.method.split("\n\n")]
@@ -124,7 +126,7 @@ def _case(outcome: Outcome) -> list[Block]:
     return blocks
 
 
-def _figure(outcome: Outcome, index: int) -> str:
+def _figure(outcome: CaseOutcome, index: int) -> str:
     return f"{outcome.name}_{index + 1}"
 
 
@@ -163,7 +165,7 @@ def _band(check: Check) -> str:
     return "limit" if check.band == 0.0 else exact(100 * check.band, 3)
 
 
-def _table(content: Table) -> Block:
+def _table(content: ResultTable) -> Block:
     rows = [[_cell(cell) for cell in row] for row in content.rows]
     left = [
         all(isinstance(row[i], str) for row in content.rows) for i in range(len(content.header))

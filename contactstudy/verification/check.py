@@ -71,7 +71,7 @@ class Check:
 
 
 @dataclass(frozen=True)
-class Table:
+class ResultTable:
     """Rows of texts and numbers; numbers are shown with four digits.
 
     Attributes
@@ -105,7 +105,7 @@ class CaseResult:
     method : str
         What is compared with what, and how; paragraphs are parted by an empty line.
     checks : tuple of Check
-    tables : tuple of Table
+    tables : tuple of ResultTable
     figures : tuple of Plot
     """
 
@@ -113,7 +113,7 @@ class CaseResult:
     title: str
     method: str
     checks: tuple[Check, ...]
-    tables: tuple[Table, ...] = ()
+    tables: tuple[ResultTable, ...] = ()
     figures: tuple[Plot, ...] = ()
 
     @property
@@ -122,7 +122,7 @@ class CaseResult:
         return tuple(check for check in self.checks if check.passed is False)
 
 
-def describe(checks: Sequence[Check]) -> str:
+def check_lines(checks: Sequence[Check]) -> str:
     """Lines with computed, reference, difference and band, for a terminal."""
     lines = []
     for c in checks:

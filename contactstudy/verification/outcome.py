@@ -11,14 +11,14 @@ from typing import Any, Literal
 
 from contactstudy.files import writing
 from contactstudy.plot.curves import Curve, Plot
-from contactstudy.verification.check import CaseResult, Check, Table
+from contactstudy.verification.check import CaseResult, Check, ResultTable
 
 JSON_FILE = "verification.json"
-Status = Literal["passed", "failed", "broke down", "not run"]
+CaseStatus = Literal["passed", "failed", "broke down", "not run"]
 
 
 @dataclass(frozen=True)
-class Outcome:
+class CaseOutcome:
     """What became of one case.
 
     Attributes
@@ -33,7 +33,7 @@ class Outcome:
     """
 
     name: str
-    status: Status
+    status: CaseStatus
     reason: str = ""
     result: CaseResult | None = None
 
@@ -43,9 +43,9 @@ class Outcome:
         return self.status in ("passed", "not run")
 
 
-def judged(result: CaseResult) -> Outcome:
-    """Outcome of a case that was computed."""
-    return Outcome(result.name, "failed" if result.failed else "passed", result=result)
+def judged(result: CaseResult) -> CaseOutcome:
+    """CaseOutcome of a case that was computed."""
+    return CaseOutcome(result.name, "failed" if result.failed else "passed", result=result)
 
 
 def to_data(result: CaseResult) -> dict[str, Any]:
@@ -63,7 +63,7 @@ def from_data(data: dict[str, Any]) -> CaseResult:
         for entry in data["checks"]
     )
     tables = tuple(
-        Table(t["caption"], tuple(t["header"]), tuple(tuple(row) for row in t["rows"]))
+        ResultTable(t["caption"], tuple(t["header"]), tuple(tuple(row) for row in t["rows"]))
         for t in data["tables"]
     )
     figures = tuple(
@@ -72,7 +72,7 @@ def from_data(data: dict[str, Any]) -> CaseResult:
     return CaseResult(data["name"], data["title"], data["method"], checks, tables, figures)
 
 
-def write_json(outcomes: Sequence[Outcome], about: dict[str, Any], out_dir: Path) -> Path:
+def write_json(outcomes: Sequence[CaseOutcome], about: dict[str, Any], out_dir: Path) -> Path:
     """Write all numbers and the provenance into out_dir/verification.json."""
     cases = [
         {"name": o.name, "status": o.status, "reason": o.reason}

@@ -8,16 +8,15 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
-from contactstudy import executor as sweep
 from contactstudy.code import code_digest
 from contactstudy.exceptions import ContactStudyError
-from contactstudy.executor import Progress, Task, run_tasks
+from contactstudy.executor import Outcome, Progress, Task, run_tasks
 from contactstudy.files import ensure_writable
 from contactstudy.provenance import versions
 from contactstudy.reporter import Quiet, Reporter
 from contactstudy.store import Store, store_key
 from contactstudy.verification.case import Case
-from contactstudy.verification.outcome import Outcome, from_data, judged, to_data
+from contactstudy.verification.outcome import CaseOutcome, from_data, judged, to_data
 
 KEPT = "cases"
 """Folder of the output in which finished cases are kept."""
@@ -30,7 +29,7 @@ def run_cases(
     quick: bool = False,
     reporter: Reporter | None = None,
     jobs: int = 1,
-) -> list[Outcome]:
+) -> list[CaseOutcome]:
     """Run cases; those that are kept in `out_dir` from the same program are taken from there.
 
     Parameters
@@ -45,7 +44,7 @@ def run_cases(
 
     Returns
     -------
-    list of Outcome
+    list of CaseOutcome
         One a case. A case that breaks down does not keep the others from running.
 
     Raises
@@ -55,7 +54,7 @@ def run_cases(
     """
     reporter = reporter or Quiet()
     ensure_writable(out_dir)
-    outcomes: dict[str, Outcome] = {}
+    outcomes: dict[str, CaseOutcome] = {}
     todo = []
     for case in cases:
         found = _skipped(case, quick) or _kept(case, out_dir)
@@ -65,7 +64,7 @@ def run_cases(
             outcomes[case.name] = found
             reporter.note(summary(found))
 
-    def finished(name: str, ended: sweep.Outcome) -> None:
+    def finished(name: str, ended: Outcome) -> None:
         outcomes[name] = outcome = _of_task(name, ended)
         reporter.end(name, outcome.good)
         reporter.note(summary(outcome))
@@ -75,15 +74,15 @@ def run_cases(
     return [outcomes[case.name] for case in cases]
 
 
-def _task(case: Case, out_dir: Path, progress: Progress) -> Outcome:
+def _task(case: Case, out_dir: Path, progress: Progress) -> CaseOutcome:
     progress(0, 1)
     return _run(case, out_dir)
 
 
-def _of_task(name: str, ended: sweep.Outcome) -> Outcome:
-    if isinstance(ended.value, Outcome):
+def _of_task(name: str, ended: Outcome) -> CaseOutcome:
+    if isinstance(ended.value, CaseOutcome):
         return ended.value
-    return Outcome(name, "broke down", str(ended.error))
+    return CaseOutcome(name, "broke down", str(ended.error))
 
 
 def about() -> dict[str, Any]:
@@ -101,7 +100,7 @@ def _optional_versions() -> dict[str, str]:
     return found
 
 
-def complaints(outcomes: Sequence[Outcome]) -> list[str]:
+def complaints(outcomes: Sequence[CaseOutcome]) -> list[str]:
     """One line for each check that leaves its band and for each case that broke down."""
     lines = []
     for outcome in outcomes:
@@ -116,7 +115,7 @@ def complaints(outcomes: Sequence[Outcome]) -> list[str]:
     return lines
 
 
-def summary(outcome: Outcome) -> str:
+def summary(outcome: CaseOutcome) -> str:
     """One line on what became of a case."""
     if outcome.result is None:
         return f"{outcome.name}: {outcome.status}: {outcome.reason}"
@@ -127,12 +126,14 @@ def summary(outcome: Outcome) -> str:
     return f"{outcome.name}: {kept} of {len(with_band)} checks within their bands{reported}"
 
 
-def _skipped(case: Case, quick: bool) -> Outcome | None:
+def _skipped(case: Case, quick: bool) -> CaseOutcome | None:
     missing = case.missing()
     if missing:
-        return Outcome(case.name, "not run", f"needs {' and '.join(missing)}, not installed here")
+        return CaseOutcome(
+            case.name, "not run", f"needs {' and '.join(missing)}, not installed here"
+        )
     if quick and case.slow:
-        return Outcome(case.name, "not run", "takes long and was left out by --quick")
+        return CaseOutcome(case.name, "not run", "takes long and was left out by --quick")
     return None
 
 
@@ -140,19 +141,19 @@ def _key(case: Case) -> str:
     return store_key([case.name, _optional_versions()], case.function.partition(":")[0])
 
 
-def _kept(case: Case, out_dir: Path) -> Outcome | None:
+def _kept(case: Case, out_dir: Path) -> CaseOutcome | None:
     """The case as it was kept; None when there is none, or when the file is damaged."""
     data = Store(out_dir / KEPT).load(case.name, _key(case)).value
     return None if data is None else judged(from_data(data))
 
 
-def _run(case: Case, out_dir: Path) -> Outcome:
+def _run(case: Case, out_dir: Path) -> CaseOutcome:
     try:
         result = case.load()()
         if result.name != case.name:
             raise ContactStudyError(f"calls itself {result.name!r}")
     except Exception as error:  # the others shall run all the same; the command then ends with 1
-        return Outcome(case.name, "broke down", f"{type(error).__name__}: {error}")
+        return CaseOutcome(case.name, "broke down", f"{type(error).__name__}: {error}")
     data = to_data(result)
     Store(out_dir / KEPT).save(case.name, _key(case), data)
     # as it is read again, so that a resumed command writes the same bytes

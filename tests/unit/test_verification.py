@@ -14,7 +14,7 @@ from contactstudy.plot.curves import Curve, Plot, curve
 from contactstudy.report.verification import write_verification
 from contactstudy.verification import cases, runner
 from contactstudy.verification.case import Case, select
-from contactstudy.verification.check import CaseResult, Check, Table, describe
+from contactstudy.verification.check import CaseResult, Check, ResultTable, check_lines
 from contactstudy.verification.outcome import from_data, judged, to_data
 
 
@@ -28,7 +28,7 @@ def result(name="good", *checks):
         f"The case {name}",
         "What is done.\n\nAnd why.",
         checks or (check(), check(band=None)),
-        (Table("Numbers.", ("kind", "value (m)"), (("a", 1.5), ("b", None), ("c", 3))),),
+        (ResultTable("Numbers.", ("kind", "value (m)"), (("a", 1.5), ("b", None), ("c", 3))),),
         (Plot("Two curves.", "x (m)", "y (m)", (curve("a", [1, 2], [1, math.nan], "both"),)),),
     )
 
@@ -85,14 +85,14 @@ def test_error_and_verdict(made, error, passed):
 
 
 def test_description_has_reference_beside_computed():
-    text = describe([check(), check(2.0, sense="at_least", band=0.0), check(1.1)])
+    text = check_lines([check(), check(2.0, sense="at_least", band=0.0), check(1.1)])
     assert "1.004 m (reference 1, closed form): +0.4 %, band 1 %: ok" in text
     assert "reference at least 1" in text and text.endswith("FAILS")
 
 
 def test_rows_and_curves_must_fit():
     with pytest.raises(ValueError, match=r"rows \[1\]"):
-        Table("T", ("a", "b"), ((1, 2), (1,)))
+        ResultTable("T", ("a", "b"), ((1, 2), (1,)))
     with pytest.raises(ValueError, match="2 abscissae, 1 ordinates"):
         Curve("c", (1.0, 2.0), (1.0,))
 

@@ -6,20 +6,20 @@ import pytest
 from contactstudy.verification.cases import block_stresses, stress_below
 from contactstudy.verification.cases.point_loads import flamant
 from contactstudy.verification.cases.strip import Strip
-from contactstudy.verification.check import describe
+from contactstudy.verification.check import check_lines
 
 
 def judged(case):
-    print(describe(case.checks))
+    print(check_lines(case.checks))
     assert not case.failed
 
 
 def test_line():
-    judged(stress_below.line())
+    judged(stress_below.below_line())
 
 
 def test_ellipses():
-    judged(stress_below.ellipse())
+    judged(stress_below.below_ellipses())
 
 
 def test_sphere_on_coarse_meshes():
@@ -36,7 +36,7 @@ def test_sphere_on_coarse_meshes():
 
 @pytest.mark.slow
 def test_sphere():
-    judged(stress_below.sphere())
+    judged(stress_below.below_sphere())
 
 
 def test_flamant_is_the_simple_radial_stress():

@@ -15,7 +15,7 @@ from contactstudy.solvers.surface import geometry_press
 from contactstudy.track.solid import SolidTrack
 from contactstudy.track.unreduced import UnreducedTrack
 from contactstudy.verification.cases.flat_press import FacetPress
-from contactstudy.verification.check import Check, Table
+from contactstudy.verification.check import Check, ResultTable
 
 
 def smooth_press(
@@ -98,7 +98,9 @@ def read_as_facets(mesh: PressMesh, run: CalculixRun) -> FacetPress:
     return FacetPress(press.approach, press.area, pressure, press.lateral_force)
 
 
-def pressure_table(caption: str, place: str, at: Array, presses: Mapping[str, Array]) -> Table:
+def pressure_table(
+    caption: str, place: str, at: Array, presses: Mapping[str, Array]
+) -> ResultTable:
     """Mean pressures of a row of faces.
 
     Parameters
@@ -114,4 +116,4 @@ def pressure_table(caption: str, place: str, at: Array, presses: Mapping[str, Ar
         (1e3 * float(x), *(1e-6 * float(pressure[i]) for pressure in presses.values()))
         for i, x in enumerate(at)
     )
-    return Table(caption, (place, *(f"{name} (MPa)" for name in presses)), rows)
+    return ResultTable(caption, (place, *(f"{name} (MPa)" for name in presses)), rows)

@@ -25,7 +25,7 @@ from contactstudy.verification.cases.calculix_faces import (
     smooth_press,
 )
 from contactstudy.verification.cases.flat_press import FacetPress, flat_press
-from contactstudy.verification.check import CaseResult, Check, Table
+from contactstudy.verification.check import CaseResult, Check, ResultTable
 
 STUDY = "s1002_inclined"
 SIZE, LENGTH = 4e-3, 0.1
@@ -101,7 +101,7 @@ class WholePress:
         forces = 1e-3 * ours.lateral_force, 1e-3 * self.theirs.lateral_force
         return Check(f"lateral force on the wheel, {how}", *forces, "kN", self.source, band)
 
-    def table(self) -> Table:
+    def table(self) -> ResultTable:
         """Pressures across the tread, just ahead of the middle."""
         middle, y = len(self.wheel.x) // 2, self.wheel.y
         presses = {self.source: self.theirs, "flat faces": self.flat, "smooth": self.smooth}

@@ -11,7 +11,7 @@ from contactstudy.compare.convergence import fitted_order
 from contactstudy.halfspace.hertz import HertzContact, contact_modulus, hertz_contact
 from contactstudy.plot.curves import Plot, curve
 from contactstudy.verification.cases.pressed_blocks import BlockPress, blocks
-from contactstudy.verification.check import CaseResult, Check, Table
+from contactstudy.verification.check import CaseResult, Check, ResultTable
 
 RATIOS = (1.0, 1.5, 2.0, 3.0, 4.0)
 LOADS = (20e3, 60e3, 200e3)
@@ -103,7 +103,7 @@ def _study(name: str, title: str, ratios: tuple[float, ...], meshes: tuple[int, 
         title,
         method,
         tuple(checks),
-        (Table("All meshes: difference from Hertz in per cent.", _HEADER, tuple(rows)),),
+        (ResultTable("All meshes: difference from Hertz in per cent.", _HEADER, tuple(rows)),),
         (_plot(errors),),
     )
 

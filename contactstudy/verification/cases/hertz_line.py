@@ -15,7 +15,7 @@ from contactstudy.plot.curves import Plot, curve
 from contactstudy.verification.cases.graded import graded_lines
 from contactstudy.verification.cases.hertz_ellipses import APPROACH_BAND, BAND, HERTZ, PENALTY
 from contactstudy.verification.cases.strip import Strip
-from contactstudy.verification.check import CaseResult, Check, Table
+from contactstudy.verification.check import CaseResult, Check, ResultTable
 
 RADIUS = 0.43
 LOADS = (2e6, 6e6, 20e6)
@@ -85,7 +85,7 @@ def line() -> CaseResult:
         "Cylinder on a flat, a decade of loads",
         method,
         tuple(checks),
-        (Table("All meshes: difference from Hertz in per cent.", header, rows),),
+        (ResultTable("All meshes: difference from Hertz in per cent.", header, rows),),
         (_plot(every),),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from contactstudy.geometry.wheelset import Side
 from contactstudy.plot.curves import Plot, curve
 from contactstudy.verification.cases.manchester import ManchesterRow, manchester_rows
-from contactstudy.verification.check import CaseResult, Check, Table
+from contactstudy.verification.check import CaseResult, Check, ResultTable
 
 SOURCE = "CONTACT 25.2, published reference output"
 # case: approach [m], peak pressure [Pa], area [m^2], |y| on the rail [m], left wheel
@@ -85,9 +85,9 @@ def published_checks(rows: list[ManchesterRow]) -> tuple[Check, ...]:
     return tuple(checks)
 
 
-def rows_table(rows: list[ManchesterRow], wheel: str) -> Table:
+def rows_table(rows: list[ManchesterRow], wheel: str) -> ResultTable:
     """Table of one wheel's patches."""
-    return Table(
+    return ResultTable(
         f"{wheel.capitalize()} wheel: contact patches at all positions computed. y to the right, "
         "z down from the top of the rail; N is the normal force.",
         ("shift (mm)", "yaw (mrad)", "patch", "y (mm)", "z (mm)", "s wheel (mm)",
@@ -102,7 +102,7 @@ def rows_table(rows: list[ManchesterRow], wheel: str) -> Table:
     )  # fmt: skip
 
 
-def _smaller_cells() -> Table:
+def _smaller_cells() -> ResultTable:
     """The published rows, and the narrowest patch, on smaller cells."""
     sides = (0.2e-3, 0.1e-3, 0.05e-3)
     rows = []
@@ -113,7 +113,7 @@ def _smaller_cells() -> Table:
                 (1e3 * r.shift, wheel, 1e3 * side, 1e3 * r.across, 1e6 * r.approach,
                  1e-6 * r.peak_pressure, 1e6 * r.area)
             )  # fmt: skip
-    return Table(
+    return ResultTable(
         "What the cells of 0.2 mm leave: the same positions on smaller ones. The area shrinks, "
         "since cells count whole.",
         ("shift (mm)", "wheel", "cell (mm)", "semi-axis across (mm)", "approach (µm)",

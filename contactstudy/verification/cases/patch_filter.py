@@ -20,7 +20,7 @@ from contactstudy.verification.cases.wave_filter import (
     pressed_filter,
     small_amplitude_filter,
 )
-from contactstudy.verification.check import CaseResult, Check, Table
+from contactstudy.verification.check import CaseResult, Check, ResultTable
 
 LOAD = 80e3
 """N"""
@@ -150,6 +150,6 @@ def patch_filter() -> CaseResult:
         "Contact-patch filter, 10 to 314 mm",
         METHOD,
         tuple(checks),
-        (Table("Amplitude ratio", header, rows),),
+        (ResultTable("Amplitude ratio", header, rows),),
         (plot,),
     )

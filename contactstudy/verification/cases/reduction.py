@@ -19,7 +19,7 @@ from contactstudy.track.model import DiscreteSupports, Support, Track
 from contactstudy.track.solid import SolidTrack, solid_rail
 from contactstudy.track.unreduced import UnreducedTrack
 from contactstudy.vehicle import wheel_column
-from contactstudy.verification.check import CaseResult, Check, Table
+from contactstudy.verification.check import CaseResult, Check, ResultTable
 
 SPEED = 300 / 3.6
 SIZE = 0.004
@@ -121,7 +121,7 @@ def _result(found: _Passage) -> CaseResult:
         "Condensed rail against every node in motion, third octaves to 5 kHz",
         method,
         tuple(checks),
-        (Table("Root mean squares in the third octaves.", header, rows),),
+        (ResultTable("Root mean squares in the third octaves.", header, rows),),
         _plots(found, full, rest),
     )
 

@@ -7,10 +7,10 @@ import numpy as np
 from contactstudy.halfspace.hertz import contact_modulus, hertz_contact
 from contactstudy.plot.curves import Plot, curve
 from contactstudy.verification.cases.refinement import BAND, QUANTITIES, Refinement, common
-from contactstudy.verification.check import Cell, Check, Table
+from contactstudy.verification.check import Cell, Check, ResultTable
 
 
-def tables(name: str, scale: float, series: Refinement) -> tuple[Table, ...]:
+def tables(name: str, scale: float, series: Refinement) -> tuple[ResultTable, ...]:
     """Differences from the finest level and observed orders, for levels times `scale`."""
     short = ("force", "dynamic part", f"below {BAND:g} Hz", "peak pressure", "its mean")
     finest = f"{scale * series.levels[-1]:.4g}"
@@ -28,10 +28,10 @@ def tables(name: str, scale: float, series: Refinement) -> tuple[Table, ...]:
         for k, row in enumerate(series.orders)
     ]
     columns = (*(f"{q} (%)" for q in short), "mean area (mm²)", "penetration (nm)")
-    found = [Table(f"Differences from {name} {finest}", (name, *columns), tuple(rows))]
+    found = [ResultTable(f"Differences from {name} {finest}", (name, *columns), tuple(rows))]
     if series.algebraic:
         caption = "Observed order of three neighbouring levels (–: their steps do not get smaller)"
-        found.append(Table(caption, (name, *short), tuple(orders)))
+        found.append(ResultTable(caption, (name, *short), tuple(orders)))
     return tuple(found)
 
 

@@ -15,7 +15,7 @@ from contactstudy.study.kinds.passage import build
 from contactstudy.study.kinds.passage.placing import geometry
 from contactstudy.study.kinds.passage.schema import Study
 from contactstudy.study.loading import load_study
-from contactstudy.verification.check import CaseResult, Check, Table
+from contactstudy.verification.check import CaseResult, Check, ResultTable
 
 LOADS = np.array([0.25, 0.5, 0.75, 1.0]) * 67.4e3
 _METHOD = """
@@ -78,7 +78,7 @@ def solid_press() -> CaseResult:
             checks.append(_check(f"approach {at}", own, theirs, "µm", 0.02))
         secant = load / own * 1e-9
         rows.append((load / 1e3, approach * 1e6, own * 1e6, theirs * 1e6, secant))
-    table = Table(
+    table = ResultTable(
         f"Approach of hub and rail's centre line; far field {far * 1e9:.4f} um/kN taken off",
         ("load (kN)", "solid (um)", "less far field (um)", "half-space (um)", "secant (GN/m)"),
         tuple(rows),

@@ -21,7 +21,7 @@ from contactstudy.profiles.curve import ProfileCurve
 from contactstudy.profiles.named import rail_curve, wheel_curve
 from contactstudy.scans import SurfaceScan, meeting, scanned_surface
 from contactstudy.scans.reading import Body
-from contactstudy.verification.check import CaseResult, Check, Table
+from contactstudy.verification.check import CaseResult, Check, ResultTable
 
 RADIUS = 0.46
 NOISE = 2e-6
@@ -143,7 +143,7 @@ def scanned_profiles() -> CaseResult:
         )
         for scan in scans.values()
     ]
-    table = Table(
+    table = ResultTable(
         "Fits of the smooth surfaces to the scans.",
         ("scan", "points", "residual rms (um)", "largest (um)", "scatter (um)", "knots"),
         tuple(rows),

@@ -12,7 +12,7 @@ from contactstudy.verification.cases.block_stresses import (
     shear_order,
     sphere_stresses,
 )
-from contactstudy.verification.check import CaseResult, Check, Table
+from contactstudy.verification.check import CaseResult, Check, ResultTable
 
 SOURCE = "Johnson 1985"
 # nu = 0.3; rounded from the closed forms below (0.31002 at 0.4809 a, 0.30028 at 0.7862 b), which
@@ -46,7 +46,7 @@ def hertz_pressure(a: float, b: float, cells: int = 48) -> SurfacePressure:
     return SurfacePressure(a * u, b * u, np.sqrt(np.maximum(inside, 0.0)))
 
 
-def sphere() -> CaseResult:
+def below_sphere() -> CaseResult:
     """Sphere on flat: the finite elements' stresses and the recovered field."""
     rows = sphere_stresses()
     best = rows[-1]
@@ -99,7 +99,7 @@ def sphere() -> CaseResult:
     )
 
 
-def line() -> CaseResult:
+def below_line() -> CaseResult:
     """Cylinder on flat in plane strain."""
     rows = line_stresses()
     best = rows[-1]
@@ -127,7 +127,7 @@ def line() -> CaseResult:
     )
 
 
-def ellipse() -> CaseResult:
+def below_ellipses() -> CaseResult:
     """Recovered stresses below Hertz's ellipses."""
     checks = []
     for ratio, (depth, shear) in ELLIPSES.items():
@@ -146,7 +146,7 @@ def ellipse() -> CaseResult:
     )
 
 
-def _table(rows: tuple[LargestStresses, ...], axis: str) -> Table:
+def _table(rows: tuple[LargestStresses, ...], axis: str) -> ResultTable:
     header = (
         f"elements over {axis}", "shear/p0, elements", f"depth/{axis}", "von Mises/p0",
         "shear/p0, field", f"depth/{axis}", "von Mises/p0",
@@ -160,4 +160,4 @@ def _table(rows: tuple[LargestStresses, ...], axis: str) -> Table:
         )
         for r in rows
     )  # fmt: skip
-    return Table("Largest stresses below the patch", header, cells)
+    return ResultTable("Largest stresses below the patch", header, cells)

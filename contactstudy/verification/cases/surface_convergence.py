@@ -12,7 +12,7 @@ from contactstudy.verification.cases.refinement_report import (
     peak_over_hertz,
     tables,
 )
-from contactstudy.verification.check import CaseResult, Check, Table
+from contactstudy.verification.check import CaseResult, Check, ResultTable
 
 METHOD = (
     "The default study (36 m of track, Table 1's roughness, seed 1, 300 km/h) from 12 m on, over "
@@ -32,7 +32,7 @@ def mesh() -> CaseResult:
     fine, inner = refined_runs.mesh_series(), refined_runs.interior_series()
     peak = peak_over_hertz(fine)
     name, inner_name = "mesh size (mm)", "coarsest element (mm)"
-    pressures = Table(
+    pressures = ResultTable(
         "Mean of the peak pressure over Hertz's under the same forces",
         (name, "ratio"),
         tuple((1e3 * h, p) for h, p in zip(fine.levels, peak, strict=True)),
@@ -124,7 +124,7 @@ def penalty() -> CaseResult:
     )
 
 
-def modes() -> CaseResult:
+def interface_modes() -> CaseResult:
     """Generalised modes of the rail's interface planes."""
     found = refined_runs.modes_series()
     name = "interface modes"
@@ -178,7 +178,7 @@ def time_step() -> CaseResult:
     )
 
 
-def summary() -> CaseResult:
+def defaults() -> CaseResult:
     """What the defaults leave, all of it together."""
     of = {
         "mesh size at the running surface, 2 mm": refined_runs.mesh_series(),
@@ -192,7 +192,7 @@ def summary() -> CaseResult:
     rows = [(name, *row.tolist()) for name, row in zip(of, left, strict=True)]
     header = ("default", "force (%)", "dynamic part (%)", "mean peak pressure (%)")
     picked = tuple((r[0], r[1], r[2], r[5]) for r in rows)
-    table = Table(
+    table = ResultTable(
         "Error left at the defaults",
         header,
         (*picked, ("all, root of the sum of squares", *total[[0, 1, 4]].tolist())),

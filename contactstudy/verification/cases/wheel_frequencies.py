@@ -14,7 +14,7 @@ from contactstudy.solids.wheel_modes import ModesRecipe, wheel_modes
 from contactstudy.solids.wheel_recipe import FAR_STEP_OF_MODES, WheelRecipe
 from contactstudy.solids.wheel_section import WheelSection
 from contactstudy.verification.cases.annulus import Annulus
-from contactstudy.verification.check import CaseResult, Cell, Check, Table
+from contactstudy.verification.check import CaseResult, Cell, Check, ResultTable
 
 COARSE = WheelRecipe(
     profile="S1002",
@@ -57,7 +57,7 @@ def disc() -> CaseResult:
         ),
         checks=tuple(checks),
         tables=(
-            Table(
+            ResultTable(
                 "Error of the frequency by elements between bore and edge",
                 ("mode", "closed form (Hz)", "10 (%)", "20 (%)", "40 (%)"),
                 tuple(rows),
@@ -147,7 +147,7 @@ def brute_force() -> CaseResult:
         ),
         checks=tuple(checks),
         tables=(
-            Table(
+            ResultTable(
                 "Natural frequencies up to 2.5 kHz",
                 ("waves", "ring (Hz)", "brute force (Hz)", "difference (%)"),
                 rows,

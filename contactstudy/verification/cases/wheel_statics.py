@@ -7,7 +7,7 @@ from contactstudy.profiles.wheel_body import WheelDimensions
 from contactstudy.solids.wheel import WheelFlexibility, elastic_wheel
 from contactstudy.solids.wheel_modes import ModesRecipe, residual_flexibility, wheel_modes
 from contactstudy.solids.wheel_recipe import FAR_STEP_OF_MODES, WheelRecipe
-from contactstudy.verification.check import CaseResult, Check, Table
+from contactstudy.verification.check import CaseResult, Check, ResultTable
 
 EVEN = WheelDimensions(rim_inside=-0.0675, rim_outside=0.0675)
 """Default wheel with its tape circle in the middle of the rim, as the half section has it."""
@@ -82,7 +82,7 @@ def statics() -> CaseResult:
         ),
         checks=checks,
         tables=(
-            Table(
+            ResultTable(
                 "Stiffness between hub and tread under the spread load",
                 ("element size (mm)", "stiffness (GN/m)", "above that at 1 mm (%)"),
                 tuple(
@@ -90,7 +90,7 @@ def statics() -> CaseResult:
                     for size, k in zip(SIZES, stiff, strict=True)
                 ),
             ),
-            Table(
+            ResultTable(
                 "Share of the modes in the flexibility under the spread load, half section",
                 ("up to (kHz)", "modes", "share (%)", "least eigenvalue of the rest (relative)"),
                 tuple(rows),
