@@ -133,6 +133,10 @@ class ProfileCurve:
                 break
         return x.reshape(b.shape)
 
+    def height(self, y: ArrayLike) -> Array:
+        """z (...) of the curve's points at lateral positions y (...) [m]; raises as `arc_of_y`."""
+        return np.asarray(self.point(self.arc_of_y(y))[..., 1])
+
     @cached_property
     def _closest_points(self) -> ClosestPoint:
         joints = [float(s) for s in self._joints]

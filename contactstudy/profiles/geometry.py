@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from contactstudy.arrays import Array
+from contactstudy.profiles.pieces import ArcPiece, LinePiece
 
 Vector = Array
 
@@ -32,18 +33,15 @@ class Line:
         (y0, z0), (y1, z1) = self.start, self.end
         return y0 + (z - z0) * ((y1 - y0) / (z1 - z0)) if z1 != z0 else np.full_like(z, y0)
 
-    def z_of_y(self, y: Vector, derivative: int) -> Vector:
-        """Height, slope or second derivative at lateral position y [m, 1, 1/m]."""
+    def z_of_y(self, y: float) -> float:
+        """Height at lateral position y [m]."""
         (y0, z0), (y1, z1) = self.start, self.end
-        slope = (z1 - z0) / (y1 - y0)
-        if derivative == 0:
-            return z0 + (y - y0) * slope
-        return np.full_like(y, slope if derivative == 1 else 0.0)
+        return z0 + (y - y0) * (z1 - z0) / (y1 - y0)
 
-    def length_to(self, y: Vector) -> Vector:
-        """Length of the piece from its start to lateral position y [m]."""
-        (y0, z0), (y1, z1) = self.start, self.end
-        return (y - y0) * (np.hypot(y1 - y0, z1 - z0) / (y1 - y0))
+    @property
+    def curve(self) -> LinePiece:
+        """The piece by arc length."""
+        return LinePiece(self.start, self.end)
 
     def points(self, chord_error: float) -> Vector:
         """Both ends, shape (2, 2) [m]; a line has no chord error."""
@@ -79,25 +77,10 @@ class Arc:
             np.maximum(self.radius**2 - h * h, 0.0)
         )
 
-    def z_of_y(self, y: Vector, derivative: int) -> Vector:
-        """Height, slope or second derivative of the upper surface at y [m, 1, 1/m]."""
-        b = y - self.centre[0]
-        root = np.sqrt(np.maximum(self.radius**2 - b * b, 0.0))
-        sign = np.sign(self.radius)
-        if derivative == 0:
-            # z_c + sqrt(R^2 - b^2) loses digits where the surface is level; z_s + (b_s^2 - b^2)
-            # / (root + root_s) is the same number without the cancellation
-            b0, z0 = self.start[0] - self.centre[0], self.start[1]
-            root0 = abs(z0 - self.centre[1])
-            return z0 + sign * (b0 - b) * (b0 + b) / (root + root0)
-        return -sign * b / root if derivative == 1 else -sign * self.radius**2 / root**3
-
-    def length_to(self, y: Vector) -> Vector:
-        """Length of an upper arc from its start to lateral position y [m]."""
-        b, b0 = (np.asarray(v) - self.centre[0] for v in (y, self.start[0]))
-        # the angle from the vertical has the sine b/R
-        R = abs(self.radius)
-        return R * (np.arcsin(np.clip(b / R, -1.0, 1.0)) - np.arcsin(b0 / R))
+    @property
+    def curve(self) -> ArcPiece:
+        """The piece by arc length."""
+        return ArcPiece(self.centre, self.start, self.end)
 
     def points(self, chord_error: float) -> Vector:
         """Points (n, 2) [m] from start to end whose chords stay within ``chord_error`` [m]."""

@@ -5,9 +5,7 @@ from pathlib import Path
 from typing import Literal
 
 from contactstudy.profiles.curve import ProfileCurve, joined
-from contactstudy.profiles.geometry import Arc
-from contactstudy.profiles.pieces import ArcPiece, LinePiece, Piece
-from contactstudy.profiles.rail import running_pieces
+from contactstudy.profiles.rail import running_surface
 from contactstudy.profiles.wheel import wheel_profile
 from contactstudy.profiles.worn import worn_curve
 
@@ -28,7 +26,7 @@ def rail_curve(name: str = "60E1") -> ProfileCurve:
     InputError
         If there is no such profile, or the file is faulty.
     """
-    return _worn(name, "rail") if _is_file(name) else _drawn_rail(name)
+    return _worn(name, "rail") if _is_file(name) else running_surface(name)
 
 
 def wheel_curve(name: str) -> ProfileCurve:
@@ -48,22 +46,6 @@ def wheel_curve(name: str) -> ProfileCurve:
         If there is no such profile, or the file is faulty.
     """
     return _worn(name, "wheel") if _is_file(name) else _drawn_wheel(name)
-
-
-@lru_cache(maxsize=16)
-def _drawn_rail(name: str) -> ProfileCurve:
-    right: list[Piece] = []
-    left: list[Piece] = []
-    for p in running_pieces(name):
-        ends = p.start, p.end
-        mirrored = (-p.end[0], p.end[1]), (-p.start[0], p.start[1])
-        if isinstance(p, Arc):
-            right.append(ArcPiece(p.centre, *ends))
-            left.insert(0, ArcPiece((-p.centre[0], p.centre[1]), *mirrored))
-        else:
-            right.append(LinePiece(*ends))
-            left.insert(0, LinePiece(*mirrored))
-    return ProfileCurve(name, (*left, *right), -sum(p.length for p in left), upper=True)
 
 
 @lru_cache(maxsize=16)

@@ -46,6 +46,11 @@ class LinePiece:
         """Arc length [m]."""
         return math.dist(self.start, self.end)
 
+    @property
+    def mirrored(self) -> "LinePiece":
+        """Mirror image about y = 0, walked towards growing y as well."""
+        return LinePiece(_image(self.end), _image(self.start))
+
     def frame(self, t: Array) -> Frame:
         """Points, unit tangents and curvature at arc lengths t (n,)."""
         start = np.asarray(self.start)
@@ -84,6 +89,11 @@ class ArcPiece:
         radius, _, sweep = self._circle
         return radius * abs(sweep)
 
+    @property
+    def mirrored(self) -> "ArcPiece":
+        """Mirror image about y = 0, walked towards growing y as well."""
+        return ArcPiece(_image(self.centre), _image(self.end), _image(self.start))
+
     def frame(self, t: Array) -> Frame:
         """Points, unit tangents and curvature at arc lengths t (n,)."""
         radius, begin, sweep = self._circle
@@ -99,6 +109,10 @@ class ArcPiece:
         angle = begin + turned + turn * 0.5 * math.pi
         tangents = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
         return points, tangents, np.full(len(t), turn / radius)
+
+
+def _image(point: tuple[float, float]) -> tuple[float, float]:
+    return -point[0], point[1]
 
 
 class Path(Protocol):

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from contactstudy.arrays import Array
 from contactstudy.exceptions import InputError
+from contactstudy.profiles.curve import ProfileCurve
 from contactstudy.profiles.geometry import Arc, Line, Piece, resolve_path
 from contactstudy.resources import resource
 
@@ -131,31 +132,10 @@ class RailProfile:
             y[which == k] = sloped[k].y_of_z(h[which == k])
         return y
 
-    def running_surface(self, y: ArrayLike) -> Array:
-        """Height z of the running surface at y [m]; NaN beyond the lower end of the side face."""
-        return self._surface(y, 0)
-
-    def running_slope(self, y: ArrayLike) -> Array:
-        """Slope dz/dy of the running surface at y [-]."""
-        return self._surface(y, 1)
-
-    def running_curvature(self, y: ArrayLike) -> Array:
-        """Second derivative d2z/dy2 of the running surface at y [1/m]."""
-        return self._surface(y, 2)
-
-    def running_arc(self, y: ArrayLike) -> Array:
-        """Arc length along the running surface from the crown to y, with the sign of y [m].
-
-        NaN beyond the lower end of the side face.
-        """
-        b = np.asarray(y, dtype=float)
-        side, begin = np.abs(b), 0.0
-        arc = np.full(b.shape, np.nan)
-        for piece in self.running_pieces:
-            here = (side >= piece.start[0]) & (side <= piece.end[0])
-            arc[here] = begin + piece.length_to(side[here])
-            begin += float(piece.length_to(np.array([piece.end[0]]))[0])
-        return arc * np.where(b < 0.0, -1.0, 1.0)
+    @cached_property
+    def curve(self) -> ProfileCurve:
+        """Running surface with both side faces, by arc length from the crown."""
+        return _running_surface(self.name, self.pieces)
 
     def half_outline(self, chord_error: float = 1e-7) -> Array:
         """Right half from the crown to the foot's centre, shape (n, 2), clockwise [m]."""
@@ -175,31 +155,23 @@ class RailProfile:
     def _piece(self, part: str) -> Piece:
         return next(p for p in self.pieces if p.part == part)
 
-    @property
-    def running_pieces(self) -> tuple[Piece, ...]:
-        """Pieces of the right half of the running surface, from the crown down the side face."""
-        return self.pieces[: 1 + self.pieces.index(self._piece("side face"))]
-
-    def _surface(self, y: ArrayLike, derivative: int) -> Array:
-        b = np.asarray(y, dtype=float)
-        side = np.abs(b)
-        top = self.running_pieces
-        ends = np.array([p.end[0] for p in top])
-        which = np.searchsorted(ends, side, side="left")
-        z = np.full(b.shape, np.nan)
-        for k, piece in enumerate(top):
-            here = which == k
-            z[here] = piece.z_of_y(side[here], derivative)
-        return z * np.where(b < 0.0, -1.0, 1.0) if derivative == 1 else z
-
 
 def _on_axis(line: Piece) -> float:
     assert isinstance(line, Line)
-    return float(line.z_of_y(np.zeros(1), 0)[0])
+    return line.z_of_y(0.0)
 
 
-def running_pieces(name: str) -> tuple[Piece, ...]:
-    """Right half of a rail's running surface, from the crown down the side face.
+def _running_surface(name: str, pieces: tuple[Piece, ...]) -> ProfileCurve:
+    """Both halves of the running surface; the pieces of the right one go further down."""
+    last = next(k for k, piece in enumerate(pieces) if piece.part == "side face")
+    right = [piece.curve for piece in pieces[: last + 1]]
+    left = [piece.mirrored for piece in reversed(right)]
+    return ProfileCurve(name, (*left, *right), -sum(p.length for p in left), upper=True)
+
+
+@lru_cache(maxsize=8)
+def running_surface(name: str) -> ProfileCurve:
+    """Running surface of a drawn rail with both side faces, by arc length from the crown.
 
     Parameters
     ----------
@@ -212,11 +184,10 @@ def running_pieces(name: str) -> tuple[Piece, ...]:
         If there is no such profile.
     """
     if name in NAMES:
-        return rail_profile(name).running_pieces
+        return rail_profile(name).curve
     if name not in _HEADS:
         raise InputError(f"rail profile '{name}' is unknown; allowed: {', '.join(NAMES + _HEADS)}")
-    pieces = resolve_path(_drawing(name)["path"])
-    return pieces[: 1 + next(k for k, p in enumerate(pieces) if p.part == "side face")]
+    return _running_surface(name, resolve_path(_drawing(name)["path"]))
 
 
 def _drawing(name: str) -> dict[str, Any]:

@@ -73,7 +73,7 @@ def _block_corners(profile: RailProfile, round_corner: bool) -> list[tuple[float
         shoulder = float(0.9 * profile.half_width(np.array([z["side_top"]]))[0])
         level = 0.5 * (z["side_bottom"] + z["head_corner"])
         head = [
-            (shoulder, float(profile.running_surface(shoulder))),
+            (shoulder, float(profile.curve.height(shoulder))),
             (float(profile.half_width(np.array([level]))[0]), level),
         ]
     return [
@@ -232,7 +232,7 @@ def _half(outline: _Outline, grading: _Grading, low: float, high: float) -> Sect
     nw = min(max(2, int(np.argmin(np.abs(lines - web_half)))), len(lines) - 2)
     columns = lines / lines[-1]
     top = along(side[0 : shoulder + 1], columns)
-    top[fine, 1] = outline.profile.running_surface(top[fine, 0])
+    top[fine, 1] = outline.profile.curve.height(top[fine, 0])
     web_fraction = np.linspace(0.0, 1.0, nw + 1)
 
     def straight(z: float, half: float) -> Array:

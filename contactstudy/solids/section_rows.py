@@ -56,14 +56,12 @@ def section_rows(section: SectionMesh, profile: RailProfile, piece: ExtrudedSlic
         return np.asarray(full[piece.free])
 
     everywhere = np.arange(n_nodes)
-    # outward normal of z = f(y): (-f', 1)/sqrt(1 + f'^2)
-    slope = profile.running_slope(y[section.surface])
-    length = np.sqrt(1 + slope**2)
-    one = np.ones(1)
+    arc = profile.curve.arc_of_y(y[section.surface])
+    outward = profile.curve.normal(arc)[:, :, None]
     surface = np.stack(
         [
-            row(np.array([node]), 2, one / c) + row(np.array([node]), 1, -one * s / c)
-            for node, s, c in zip(section.surface, slope, length, strict=True)
+            row(node, 2, normal[1]) + row(node, 1, normal[0])
+            for node, normal in zip(section.surface[:, None], outward, strict=True)
         ]
     )
     width = np.gradient(y[section.foot])
@@ -94,7 +92,7 @@ def section_rows(section: SectionMesh, profile: RailProfile, piece: ExtrudedSlic
     return SectionRows(
         surface=surface,
         surface_y=y[section.surface],
-        surface_arc=profile.running_arc(y[section.surface]),
+        surface_arc=arc,
         centre=np.stack(centre),
         foot=np.stack(foot),
         weights=np.repeat(area, 3)[piece.free],

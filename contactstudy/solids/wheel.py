@@ -16,8 +16,7 @@ from itertools import pairwise
 import numpy as np
 
 from contactstudy.arrays import Array, BoolArray, IntArray
-from contactstudy.profiles.named import wheel_curve
-from contactstudy.profiles.rail import rail_profile
+from contactstudy.profiles.named import rail_curve, wheel_curve
 from contactstudy.solids.chain import BlockTridiagonal, Slice, repeat
 from contactstudy.solids.ring import ring_slice
 from contactstudy.solids.wheel_recipe import WheelRecipe
@@ -182,10 +181,8 @@ def held_dofs(section: WheelSection) -> BoolArray:
 def normal_loads(recipe: WheelRecipe, section: WheelSection, angles: Array) -> list[Array]:
     """Unit forces along the contact normal at the tread nodes, (ny, 3n) a plane."""
     if recipe.symmetric:
-        y = section.nodes[section.tread, 0]
-        slope = np.asarray(rail_profile(recipe.rail_profile).running_slope(y))
-        normal_z = 1 / np.sqrt(1 + slope**2)
-        normal_y = -slope * normal_z
+        rail = rail_curve(recipe.rail_profile)
+        normal_y, normal_z = rail.normal(rail.arc_of_y(section.nodes[section.tread, 0])).T
     else:
         normal_y, normal_z = -wheel_curve(recipe.profile).normal(recipe.y).T
     rows = np.arange(len(section.tread))

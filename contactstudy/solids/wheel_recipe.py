@@ -6,10 +6,9 @@ import numpy as np
 
 from contactstudy.arrays import Array
 from contactstudy.profiles.named import wheel_curve
-from contactstudy.profiles.wheel import wheel_profile
 from contactstudy.profiles.wheel_body import WheelDimensions, file_digest
-from contactstudy.solids.wheel_section import WheelSection, fine_lines, wheel_section_mesh
-from contactstudy.solids.wheel_section_whole import fine_arcs, whole_wheel_section
+from contactstudy.solids.rim import Sizes
+from contactstudy.solids.wheel_section import WheelSection, fine_arcs, wheel_section
 from contactstudy.validation import positive, raise_if
 
 FAR_STEP = np.pi / 15
@@ -112,11 +111,8 @@ class WheelRecipe:
     @property
     def contact_radius(self) -> float:
         """Distance of the contact zone's middle from the axis in m."""
-        if self.symmetric:
-            return self.dimensions.radius
-        return self.dimensions.radius - float(
-            wheel_curve(self.profile).point(self.contact_centre)[1]
-        )
+        height = wheel_curve(self.profile).point(self.contact_centre)[1]
+        return self.dimensions.radius - float(height)
 
     @property
     def x(self) -> Array:
@@ -130,9 +126,7 @@ class WheelRecipe:
 
         Arc lengths on the profile from the tape circle; those of a symmetric wheel begin at 0.
         """
-        if self.symmetric:
-            return fine_lines(self.contact_half_width, self.size)
-        return fine_arcs(self.contact_centre, self.contact_half_width, self.size)
+        return fine_arcs(self.contact_centre, self.contact_half_width, self.size, self.symmetric)
 
     def section(self) -> WheelSection:
         """Mesh of the section.
@@ -142,16 +136,13 @@ class WheelRecipe:
         InputError
             If tread, rim and contact zone do not fit together.
         """
-        if self.symmetric:
-            return wheel_section_mesh(
-                self.dimensions, wheel_profile(self.profile), self.size, self.contact_half_width
-            )
-        return whole_wheel_section(
+        return wheel_section(
             self.dimensions,
             wheel_curve(self.profile),
-            self.size,
             self.contact_centre,
             self.contact_half_width,
+            Sizes(self.size),
+            self.symmetric,
         )
 
     @property

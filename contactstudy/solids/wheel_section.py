@@ -1,18 +1,18 @@
-"""Half section of a wheel, symmetric about the plane of its tape circle.
+"""Section of a wheel with tread, flange, web and hub; fine anywhere on the tread.
 
-The rim and the hub are shared evenly between the two sides. The flange is left out: it stiffens
-the rim away from the contact only. The whole section, with flange, is in `wheel_section_whole`.
+Half sections end at the plane of the tape circle: rim and hub are shared evenly between the two
+sides, and the flange, which stiffens the rim away from the contact only, is left out.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from contactstudy.arrays import Array, IntArray
-from contactstudy.exceptions import InputError
-from contactstudy.profiles.wheel import WheelProfile
+from contactstudy.profiles.curve import ProfileCurve
 from contactstudy.profiles.wheel_body import WheelDimensions
-from contactstudy.solids.mapped import graded, join
+from contactstudy.solids.mapped import along, graded, join, transfinite
+from contactstudy.solids.rim import Rim, Sizes, half_rim, whole_rim
 
 
 @dataclass(frozen=True)
@@ -26,7 +26,7 @@ class WheelSection:
     quads : ndarray (m, 4)
         Corner nodes, counter-clockwise in (y, rho).
     tread : ndarray (k,)
-        Nodes of the fine part of the tread, ordered by y; in a half section from 0.
+        Nodes of the fine part of the tread by growing arc length; in a half section from 0.
     bore : ndarray (b,)
         Nodes of the bore.
     symmetric : bool
@@ -47,35 +47,38 @@ class WheelSection:
         return np.flatnonzero(np.abs(self.nodes[:, 0]) < 1e-12)
 
 
-def fine_lines(half_width: float, size: float) -> Array:
-    """Lines of the fine part of the tread, equal steps of `size` from 0 to `half_width` [m]."""
-    return np.asarray(size * np.arange(max(2, round(half_width / size)) + 1), dtype=float)
+def fine_arcs(centre: float, half_width: float, size: float, symmetric: bool = False) -> Array:
+    """Lines of the fine part of the tread by arc length, equal steps about `centre` [m].
+
+    Of a half section those from the centre on.
+    """
+    half = size * np.arange(max(2, round(half_width / size)) + 1)
+    return np.asarray(centre + (half if symmetric else np.concatenate([-half[:0:-1], half])))
 
 
-def wheel_section_mesh(
+def wheel_section(
     dimensions: WheelDimensions,
-    profile: WheelProfile,
-    size: float,
+    curve: ProfileCurve,
+    contact_centre: float,
     contact_half_width: float,
-    coarse: float = 0.012,
-    growth: float = 1.6,
+    sizes: Sizes,
+    symmetric: bool = False,
 ) -> WheelSection:
-    """Mesh the half section, fine at the tread's middle.
+    """Mesh a section, fine about a point of its profile.
 
     Parameters
     ----------
     dimensions : WheelDimensions
-        Of the wheel.
-    profile : WheelProfile
-        Tread; must be even in y.
-    size : float
-        Element size at the tread in m, laterally and in depth.
+        Rim, web and hub.
+    curve : ProfileCurve
+        Tread and flange.
+    contact_centre : float
+        Arc length of the middle of the fine part on the profile in m, 0 at the tape circle.
     contact_half_width : float
-        Lateral extent of the fine tread on each side in m.
-    coarse : float
-        Element size away from the tread in m.
-    growth : float
-        Ratio of neighbouring sizes.
+        Extent of the fine part on each side in m.
+    sizes : Sizes
+    symmetric : bool
+        Half section y >= 0.
 
     Returns
     -------
@@ -84,52 +87,56 @@ def wheel_section_mesh(
     Raises
     ------
     InputError
-        If the fine tread does not fit on the rim, or tread or web are not symmetric.
+        If profile, rim and fine part do not fit together.
     """
     d = dimensions
-    fine = fine_lines(contact_half_width, size)
-    rim, web = 0.5 * d.rim_width, 0.5 * d.web_thickness[-1]
-    if any(d.web_offset):
-        raise InputError(
-            f"wheel web_offset = {list(d.web_offset)} m: a half model needs a web that is "
-            "symmetric about the tape circle; use a whole section"
-        )
-    if fine[-1] >= rim - size:
-        raise InputError(
-            f"wheel contact_half_width = {contact_half_width} m: must be well inside the half rim "
-            f"of {rim} m"
-        )
-    if not np.allclose(profile.height(fine), profile.height(-fine), rtol=0, atol=1e-12):
-        raise InputError(f"wheel profile '{profile.name}': a half model needs an even tread")
-    # columns: fine tread, to the side of the web, to the side of the rim
-    reach = graded(web - fine[-1], size, growth, coarse) if web > fine[-1] + 0.3 * size else None
-    columns = fine if reach is None else np.r_[fine, fine[-1] + reach[1:]]
-    n_web = int(np.argmin(np.abs(columns - web)))
-    last = columns[-1] - columns[-2]
-    columns = np.r_[
-        columns, columns[-1] + graded(rim - columns[-1], last * growth, growth, coarse)[1:]
-    ]
-    # tread at rho = R - h(y); rows grow inwards
-    depth = graded(d.rim_thickness, size, growth, coarse)[::-1] / d.rim_thickness
-    inner = d.radius - d.rim_thickness
-    outer = d.radius - np.asarray(profile.height(columns))
-    rho = inner + (outer - inner)[None, :] * (1 - depth)[:, None]
-    head = np.stack([np.broadcast_to(columns, rho.shape), rho], axis=2)
+    if symmetric:
+        rim_side, hub_side = 0.5 * d.rim_width, 0.5 * d.hub_width
+        d = replace(
+            d, rim_inside=-rim_side, rim_outside=rim_side, hub_inside=-hub_side,
+            hub_outside=hub_side,
+        )  # fmt: skip
+    fine = fine_arcs(contact_centre, contact_half_width, sizes.size, symmetric)
+    rim = (half_rim if symmetric else whole_rim)(d, curve, fine, sizes)
+    head = _head(d, rim, fine, contact_centre, sizes)
+    # the web's columns keep their shares of its thickness from rim to hub
+    a, b = rim.web
+    share = (rim.bottom[a : b + 1] - rim.bottom[a]) / (rim.bottom[b] - rim.bottom[a])
+    length = d.inner_radius - d.hub_radius
+    rows = np.linspace(d.hub_radius, d.inner_radius, 1 + max(4, round(length / sizes.coarse / 1.5)))
+    inside, outside = d.web(rows)
+    if symmetric:
+        inside = 0.0 * inside
+    y = inside[:, None] + (outside - inside)[:, None] * share
+    disc = np.stack(np.broadcast_arrays(y, rows[:, None]), axis=2)
 
-    stem = columns[: n_web + 1] * (web / columns[n_web])
-    # the columns of the web stand straight; the rim's row above shares its nodes
-    head[:, : n_web + 1, 0] = stem + (columns[: n_web + 1] - stem) * (1 - depth)[:, None]
-    rows = np.linspace(
-        d.hub_radius, inner, 1 + max(4, round((inner - d.hub_radius) / coarse / 1.5))
-    )
-    wide = d.web(rows)[1] / web  # the web's thickness relative to that at the rim
-    disc = np.stack(np.broadcast_arrays(stem[None, :] * wide[:, None], rows[:, None]), axis=2)
-    half_hub = 0.5 * d.hub_width
-    foot = web * wide[0]
-    hub_columns = np.r_[
-        stem * wide[0], foot + graded(half_hub - foot, coarse, growth, 2 * coarse)[1:]
-    ]
-    hub_rows = np.linspace(d.bore_radius, d.hub_radius, 4)
-    hub = np.stack(np.broadcast_arrays(hub_columns[None, :], hub_rows[:, None]), axis=2)
+    def beside_web(length: float) -> Array:
+        return graded(length, sizes.coarse, sizes.growth, 2 * sizes.coarse)[1:]
+
+    left = np.empty(0) if symmetric else inside[0] - beside_web(inside[0] - d.hub_inside)[::-1]
+    across = np.r_[left, y[0], outside[0] + beside_web(d.hub_outside - outside[0])]
+    up = np.linspace(d.bore_radius, d.hub_radius, 4)
+    hub = np.stack(np.broadcast_arrays(across[None, :], up[:, None]), axis=2)
     nodes, quads, ids = join(hub, disc, head)
-    return WheelSection(nodes, quads, ids[2][-1, : len(fine)], ids[0][0])
+    first = int(np.argmin(np.abs(rim.s - fine[0])))
+    tread = ids[2][-1, first : first + len(fine)]
+    return WheelSection(nodes, quads, tread, ids[0][0], symmetric)
+
+
+def _head(d: WheelDimensions, rim: Rim, fine: Array, centre: float, sizes: Sizes) -> Array:
+    """Nodes (rows, columns, 2) of the rim, rows from its inner edge to the tread."""
+    base = np.c_[rim.bottom, np.full(len(rim.bottom), d.inner_radius)]
+    middle = int(np.argmin(np.abs(rim.s - centre)))
+    reach = float(np.linalg.norm(rim.top[middle] - base[middle]))
+    up = 1 - graded(reach, sizes.size, sizes.growth, sizes.coarse)[::-1] / reach
+    side = d.rim_outside + 0 * up
+    right = np.c_[side, d.inner_radius + (rim.top[-1, 1] - d.inner_radius) * up]
+    head = transfinite(base, rim.top, along(rim.face, up), right)
+    # columns start along the inward normal in and near the fine part: with the depth share t
+    # from the tread, t (1-t)^4 (reach * inward normal - straight column) is added
+    distance = np.maximum(np.maximum(fine[0] - rim.s, rim.s - fine[-1]), 0.0)
+    edge = np.minimum(rim.s - rim.s[0], rim.s[-1] - rim.s)
+    weight = np.exp(-((distance / 0.015) ** 2)) * np.clip(edge / 0.01, 0, 1)
+    lean = weight[:, None] * (-reach * rim.normal - (base - rim.top))
+    t = 1 - up
+    return np.asarray(head + (t * (1 - t) ** 4)[:, None, None] * lean)

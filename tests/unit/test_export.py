@@ -13,7 +13,7 @@ from contactstudy.export import run_calculix as runner
 from contactstudy.export.calculix import calculix_input
 from contactstudy.export.calculix_results import read_press
 from contactstudy.export.press_mesh import FACES, press_mesh
-from contactstudy.profiles.rail import rail_profile
+from contactstudy.profiles import rail_curve
 from contactstudy.solids.hexahedron import hex_stiffness
 from contactstudy.solids.recipe import CellRecipe
 from contactstudy.solids.wheel import elastic_wheel
@@ -63,9 +63,8 @@ def test_wheel_is_the_condensed_one(mesh, stiffness):
     tread = np.unique(mesh.elements[mesh.tread[:, :1], np.array(FACES)[mesh.tread[:, 1]]])
     x, y, _ = mesh.nodes[tread].T  # numbered by plane, then by y, as the wheel's nodes
     np.testing.assert_allclose(x.reshape(len(wheel.x), -1)[:, 0], wheel.x, atol=1e-12)
-    slope = np.asarray(rail_profile("60E1").running_slope(y))
-    normal = np.stack([0 * slope, -slope, np.ones(len(y))], axis=1)
-    normal /= np.sqrt(1 + slope**2)[:, None]
+    rail = rail_curve("60E1")
+    normal = np.column_stack([0 * y, rail.normal(rail.arc_of_y(y))])
     loaded = [0, len(tread) // 2, len(tread) - 1]
     force = np.zeros((len(mesh.nodes), 3, len(loaded)))
     force[tread[loaded], :, range(len(loaded))] = normal[loaded]

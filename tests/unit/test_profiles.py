@@ -8,6 +8,7 @@ from contactstudy.profiles import (
     polygon_properties,
     rail_profile,
     section_properties,
+    wheel_curve,
     wheel_profile,
 )
 from contactstudy.resources import resource
@@ -42,30 +43,38 @@ def test_outline_is_tangent_continuous_from_crown_to_foot():
 def test_running_surface_lies_on_the_arcs():
     rail = rail_profile()
     y = np.linspace(-0.0102, 0.0102, 101)
-    np.testing.assert_allclose(rail.running_surface(y), np.sqrt(0.09 - y**2) - 0.3, atol=1e-16)
+    np.testing.assert_allclose(rail.curve.height(y), np.sqrt(0.09 - y**2) - 0.3, atol=1e-16)
     # level at the crown to full relative precision: y^2/2R at 1 um
-    assert rail.running_surface(1e-6) == pytest.approx(-1e-12 / 0.6, rel=1e-9)
+    assert rail.curve.height(1e-6) == pytest.approx(-1e-12 / 0.6, rel=1e-9)
     # printed joints (mm): R80 about (7.5005, 80.128), R13 about (23.016, 14.949), face at 36.000
     y80, y13 = 0.02, 0.03
-    assert rail.running_surface(y80) == pytest.approx(
+    assert rail.curve.height(y80) == pytest.approx(
         -0.080128 + np.sqrt(0.08**2 - (y80 - 0.0075005) ** 2), abs=2e-7
     )
-    assert rail.running_surface(y13) == pytest.approx(
+    assert rail.curve.height(y13) == pytest.approx(
         -0.014949 + np.sqrt(0.013**2 - (y13 - 0.023016) ** 2), abs=2e-7
     )
-    assert rail.running_surface(0.036) == pytest.approx(-0.0143, abs=5e-6)
-    assert np.isnan(rail.running_surface(0.04))
+    assert rail.curve.height(0.036) == pytest.approx(-0.0143, abs=5e-6)
+    with pytest.raises(InputError, match="beyond its ends"):
+        rail.curve.height(0.04)
 
 
 def test_running_slope_and_curvature_are_derivatives_of_the_surface():
-    rail = rail_profile()
+    rail = rail_profile().curve
     y = np.array([-0.034, -0.02, -0.004, 0.003, 0.018, 0.031])
     h = 1e-7
-    slope = (rail.running_surface(y + h) - rail.running_surface(y - h)) / (2 * h)
-    curvature = (rail.running_slope(y + h) - rail.running_slope(y - h)) / (2 * h)
-    np.testing.assert_allclose(rail.running_slope(y), slope, rtol=1e-6)
-    np.testing.assert_allclose(rail.running_curvature(y), curvature, rtol=1e-5)
-    assert rail.running_curvature(0.0) == pytest.approx(-1 / rail.crown_radius)
+
+    def slope_at(y):
+        ny, nz = rail.normal(rail.arc_of_y(y)).T
+        return -ny / nz
+
+    slope = (rail.height(y + h) - rail.height(y - h)) / (2 * h)
+    second = (slope_at(y + h) - slope_at(y - h)) / (2 * h)
+    np.testing.assert_allclose(slope_at(y), slope, rtol=1e-6)
+    # of z(y): z'' = -k (1 + z'^2)^(3/2), k positive for a convex body
+    bend = -rail.curvature(rail.arc_of_y(y)) * (1 + slope**2) ** 1.5
+    np.testing.assert_allclose(bend, second, rtol=1e-5)
+    assert rail.curvature(0.0) == pytest.approx(1 / rail_profile().crown_radius)
 
 
 def test_half_width_follows_the_outline():
@@ -106,18 +115,20 @@ def test_section_mesh_faults_are_named():
 
 @pytest.mark.parametrize(("name", "conicity"), [("cylinder", 0.0), ("cone", 0.05)])
 def test_straight_treads(name, conicity):
-    wheel = wheel_profile(name)
+    wheel = wheel_curve(name)
     y = np.linspace(-0.03, 0.03, 7)
-    np.testing.assert_allclose(wheel.height(y), conicity * y)
-    np.testing.assert_array_equal(wheel.slope(y), conicity)
-    np.testing.assert_array_equal(wheel.curvature(y), 0.0)
+    np.testing.assert_allclose(wheel.height(y), conicity * y, atol=1e-17)
+    ny, nz = wheel.normal(wheel.arc_of_y(y)).T
+    np.testing.assert_allclose(-ny / nz, conicity, rtol=1e-14)
+    np.testing.assert_array_equal(wheel.curvature(wheel.arc_of_y(y)), 0.0)
 
 
 def test_arc_length_of_the_running_surface_is_that_of_fine_chords() -> None:
-    rail = rail_profile()
-    y = np.linspace(0.0, 0.036, 100_001)
-    chords = np.hypot(np.diff(y), np.diff(rail.running_surface(y)))
-    arc = rail.running_arc(y)
+    rail = rail_profile().curve
+    y = np.linspace(0.0, 0.036, 20_001)
+    chords = np.hypot(np.diff(y), np.diff(rail.height(y)))
+    arc = rail.arc_of_y(y)
     assert np.allclose(arc[1:], np.cumsum(chords), rtol=0, atol=1e-9)
-    assert np.array_equal(rail.running_arc(-y), -arc)
-    assert np.isnan(rail.running_arc(0.040))
+    assert np.allclose(rail.arc_of_y(-y), -arc, rtol=0, atol=1e-15)
+    with pytest.raises(InputError, match="beyond its ends"):
+        rail.arc_of_y(0.040)

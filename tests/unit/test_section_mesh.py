@@ -50,8 +50,8 @@ def test_whole_section_is_two_halves():
 def test_surface_lies_on_the_crown_at_the_spacing(symmetric):
     mesh = rail_section_mesh(rail_profile(), 0.002, symmetric)
     y, z = mesh.nodes[mesh.surface].T
-    np.testing.assert_allclose(np.diff(rail_profile().running_arc(y)), 0.002, rtol=1e-6)
-    np.testing.assert_allclose(z, rail_profile().running_surface(y), atol=1e-15)
+    np.testing.assert_allclose(np.diff(rail_profile().curve.arc_of_y(y)), 0.002, rtol=1e-6)
+    np.testing.assert_allclose(z, rail_profile().curve.height(y), atol=1e-15)
     assert np.allclose(mesh.nodes[mesh.foot, 1], -0.172)
 
 
@@ -70,8 +70,8 @@ def test_fine_zone_round_the_gauge_corner(size, centre):
     profile, half_width = rail_profile(), 0.014
     mesh = rail_section_mesh(profile, size, False, half_width, contact_centre=centre)
     y, z = mesh.nodes[mesh.surface].T
-    np.testing.assert_allclose(z, profile.running_surface(y), atol=1e-15)
-    arc = profile.running_arc(y)
+    np.testing.assert_allclose(z, profile.curve.height(y), atol=1e-15)
+    arc = profile.curve.arc_of_y(y)
     np.testing.assert_allclose(arc[[0, -1]], [centre - half_width, centre + half_width], atol=2e-6)
     np.testing.assert_allclose(
         np.diff(arc), 2 * half_width / round(2 * half_width / size), rtol=2e-3

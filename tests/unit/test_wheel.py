@@ -8,20 +8,20 @@ import scipy.sparse as sp
 from scipy.sparse.linalg import splu
 
 from contactstudy.exceptions import InputError
-from contactstudy.profiles import rail_profile, wheel_profile
+from contactstudy.profiles import rail_curve, wheel_curve
 from contactstudy.profiles.wheel_body import WheelDimensions
 from contactstudy.solids.hexahedron import hex_stiffness
+from contactstudy.solids.rim import Sizes
 from contactstudy.solids.ring import ring_slice
 from contactstudy.solids.wheel import WheelRecipe, elastic_wheel, rigid_wheel
-from contactstudy.solids.wheel_section import wheel_section_mesh
+from contactstudy.solids.wheel_section import wheel_section
 
 COARSE = WheelRecipe(size=0.008, contact_half_length=0.016, contact_half_width=0.016)
 
 
 def section_of(recipe: WheelRecipe):  # type: ignore[no-untyped-def]
-    return wheel_section_mesh(
-        recipe.dimensions, wheel_profile("cylinder"), recipe.size, recipe.contact_half_width
-    )
+    tread, sizes = wheel_curve("cylinder"), Sizes(recipe.size)
+    return wheel_section(recipe.dimensions, tread, 0.0, recipe.contact_half_width, sizes, True)
 
 
 def whole_ring(recipe: WheelRecipe) -> tuple[np.ndarray, np.ndarray]:
@@ -62,12 +62,13 @@ def whole_ring(recipe: WheelRecipe) -> tuple[np.ndarray, np.ndarray]:
     held[:, section.plane_of_symmetry, 1] = True
     free = np.flatnonzero(~held.ravel())
     k, ny = len(recipe.x) // 2, len(section.tread)
-    slope = rail_profile("60E1").running_slope(y[section.tread])
+    rail = rail_curve("60E1")
+    normal = rail.normal(rail.arc_of_y(y[section.tread]))
     B = np.zeros((3 * n * m, len(recipe.x) * ny))
     for i in range(-k, k + 1):
         for j, node in enumerate(section.tread):
             at = 3 * ((i % m) * n + node)
-            B[at + 1 : at + 3, (i + k) * ny + j] = np.array([-slope[j], 1]) / np.hypot(slope[j], 1)
+            B[at + 1 : at + 3, (i + k) * ny + j] = normal[j]
     u = np.zeros_like(B)
     u[free] = splu(A[free][:, free]).solve(B[free])
     return B.T @ u, u[: 3 * n].reshape(n, 3, -1)[:, 1:]

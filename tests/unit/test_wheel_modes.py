@@ -8,7 +8,7 @@ import pytest
 from scipy.sparse.linalg import splu
 
 from contactstudy.exceptions import InputError
-from contactstudy.profiles import rail_profile
+from contactstudy.profiles import rail_curve
 from contactstudy.solids.wheel import WheelFlexibility, WheelRecipe, elastic_wheel
 from contactstudy.solids.wheel_modes import (
     ModesRecipe,
@@ -41,13 +41,13 @@ def test_dynamic_flexibility_is_that_of_the_whole_ring() -> None:
     omega = 2 * np.pi * 900.0
     # unit loads at all tread nodes along the rail's normal, and the hub moving up by 1 m
     n, k, ny = len(section.nodes), len(recipe.x) // 2, len(recipe.y)
-    slope = rail_profile("60E1").running_slope(recipe.y)
+    rail = rail_curve("60E1")
+    normal = rail.normal(rail.arc_of_y(recipe.y))
     B = np.zeros((K.shape[0], len(recipe.x) * ny))
     for i in range(-k, k + 1):
         for j, node in enumerate(section.tread):
             at = 3 * ((i % (K.shape[0] // (3 * n))) * n + node)
-            normal = np.array([-slope[j], 1.0]) / np.hypot(slope[j], 1.0)
-            B[at + 1 : at + 3, (i + k) * ny + j] = normal
+            B[at + 1 : at + 3, (i + k) * ny + j] = normal[j]
     up = np.tile([0.0, 0.0, 1.0], K.shape[0] // 3)
     moved = np.column_stack([B, omega**2 * (M @ up)])
     u = np.zeros_like(moved)

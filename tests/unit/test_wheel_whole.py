@@ -7,12 +7,14 @@ import pytest
 from scipy.sparse.linalg import splu
 
 from contactstudy.exceptions import InputError
+from contactstudy.profiles.curve import ProfileCurve
 from contactstudy.profiles.named import wheel_curve
+from contactstudy.profiles.pieces import LinePiece
 from contactstudy.profiles.wheel_body import WheelDimensions
 from contactstudy.solids import wheel as wheel_module
+from contactstudy.solids.rim import Sizes
 from contactstudy.solids.wheel import WheelRecipe, elastic_wheel
-from contactstudy.solids.wheel_section import WheelSection
-from contactstudy.solids.wheel_section_whole import whole_wheel_section
+from contactstudy.solids.wheel_section import WheelSection, wheel_section
 from contactstudy.verification.cases.wheel_frequencies import whole_ring
 
 COARSE = WheelRecipe(
@@ -36,7 +38,7 @@ def corner_angles(section: WheelSection) -> np.ndarray:
 @pytest.mark.parametrize("centre", [-0.044, -0.038, -0.032, -0.02, 0.0, 0.01, 0.03, 0.045])
 def test_the_fine_zone_lies_anywhere_on_the_profile(centre: float) -> None:
     curve = wheel_curve("S1002")
-    section = whole_wheel_section(WheelDimensions(), curve, 0.002, centre, 0.008)
+    section = wheel_section(WheelDimensions(), curve, centre, 0.008, Sizes(0.002))
     assert len(section.nodes) < 600
     assert corner_angles(section).min() > 0.15
     tread = np.c_[section.nodes[section.tread, 0], 0.43 - section.nodes[section.tread, 1]]
@@ -47,7 +49,7 @@ def test_the_fine_zone_lies_anywhere_on_the_profile(centre: float) -> None:
 
 def test_area_of_the_section() -> None:
     d, curve = WheelDimensions(), wheel_curve("S1002")
-    section = whole_wheel_section(d, curve, 0.002, 0.0, 0.010, coarse=0.004)
+    section = wheel_section(d, curve, 0.0, 0.010, Sizes(0.002, coarse=0.004))
     y, r = section.nodes[section.quads].transpose(2, 0, 1)
     area = 0.5 * (y * np.roll(r, -1, 1) - np.roll(y, -1, 1) * r).sum()
     # web and hub, and the rim below the profile, continued straight to the face
@@ -64,7 +66,7 @@ def test_area_of_the_section() -> None:
 
 def test_impossible_zones_and_profiles() -> None:
     with pytest.raises(InputError, match="contact zone from s ="):
-        whole_wheel_section(WheelDimensions(), wheel_curve("S1002"), 0.002, 0.06, 0.008)
+        wheel_section(WheelDimensions(), wheel_curve("S1002"), 0.06, 0.008, Sizes(0.002))
     with pytest.raises(InputError, match="contact_centre"):
         WheelRecipe(contact_centre=0.01)
 
@@ -106,7 +108,8 @@ def test_a_half_wheel_is_its_mirrored_whole(monkeypatch: pytest.MonkeyPatch) -> 
         np.unique(np.r_[half.bore, image[half.bore], half.plane_of_symmetry + n]),
         symmetric=False,
     )
-    monkeypatch.setattr(wheel_module, "rail_profile", lambda _: _Flat())
+    level = ProfileCurve("level", (LinePiece((-0.1, 0.0), (0.1, 0.0)),), -0.1, upper=True)
+    monkeypatch.setattr(wheel_module, "rail_curve", lambda _: level)
     paired = elastic_wheel(half_recipe)
     whole_recipe = replace(half_recipe, symmetric=False)
     monkeypatch.setattr(WheelRecipe, "section", lambda self: whole)
@@ -117,10 +120,3 @@ def test_a_half_wheel_is_its_mirrored_whole(monkeypatch: pytest.MonkeyPatch) -> 
     np.testing.assert_allclose(
         folded.reshape(nx * ny, -1), paired.flexibility, atol=1e-9 * paired.flexibility.max()
     )
-
-
-class _Flat:
-    """A rail with a level running surface."""
-
-    def running_slope(self, y: np.ndarray) -> np.ndarray:
-        return np.zeros_like(y)

@@ -18,8 +18,9 @@ from contactstudy.profiles.named import rail_curve, wheel_curve
 from contactstudy.profiles.rail import rail_profile
 from contactstudy.profiles.wheel_body import wheel_dimensions
 from contactstudy.scans import Meeting
+from contactstudy.solids.rim import tread_reach
 from contactstudy.solids.section_mesh import fine_reach
-from contactstudy.solids.wheel_section_whole import fine_arcs, tread_reach
+from contactstudy.solids.wheel_section import fine_arcs
 from contactstudy.study.kinds.passage.schema import Study
 from contactstudy.study.kinds.passage.vehicles import vehicle
 from contactstudy.study.kinds.passage.wheelset import complaint_of_position
