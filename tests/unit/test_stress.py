@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from contactstudy.solids.hexahedron import elasticity_matrix, hex_stiffness, strain_operators
-from contactstudy.solids.stress import hex_stress, nodal_stress
+from contactstudy.verification.cases.element_stress import hex_stress, nodal_stress
 from contactstudy.verification.cases.graded import graded_lines
 from contactstudy.verification.cases.halfspace_block import HalfSpaceBlock
 

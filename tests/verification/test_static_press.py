@@ -13,7 +13,6 @@ from scipy.special import ellipe, ellipk
 
 from contactstudy.contact.press import (
     PressCurve,
-    contact_ellipse,
     press_curve,
     tangent_stiffness,
 )
@@ -21,6 +20,7 @@ from contactstudy.geometry.interpolation import SplineLine
 from contactstudy.geometry.placement import Geometry
 from contactstudy.geometry.points import ContactPoints, contact_points
 from contactstudy.profiles.named import rail_curve, wheel_curve
+from contactstudy.verification.cases.contact_ellipse import contact_ellipse
 from contactstudy.verification.cases.graded import graded_lines
 from contactstudy.verification.cases.halfspace_block import half_space_patch
 

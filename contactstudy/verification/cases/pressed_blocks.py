@@ -10,14 +10,11 @@ import numpy as np
 from contactstudy.arrays import Array, BoolArray
 from contactstudy.contact.complementarity import PatchForces, contact_forces, press
 from contactstudy.contact.groups import contact_area
-from contactstudy.contact.press import (
-    ContactEllipse,
-    contact_ellipse,
-    penalty_compliance,
-)
+from contactstudy.contact.press import penalty_compliance
 from contactstudy.geometry.interpolation import SplineLine, grid_rows
 from contactstudy.geometry.points import ContactPoints
 from contactstudy.geometry.quadrature import Quadrature, grid_facets, point_line
+from contactstudy.verification.cases.contact_ellipse import ContactEllipse, contact_ellipse
 from contactstudy.verification.cases.graded import graded_lines
 from contactstudy.verification.cases.halfspace_block import half_space_patch
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 from contactstudy.contact.groups import contact_area
-from contactstudy.contact.press import contact_ellipse
 from contactstudy.geometry.placement import Geometry
 from contactstudy.geometry.tread import wheel_points
 from contactstudy.halfspace.hertz import contact_modulus
@@ -15,6 +14,7 @@ from contactstudy.study.kinds.passage import build
 from contactstudy.study.kinds.passage.placing import geometry
 from contactstudy.study.kinds.passage.schema import Study
 from contactstudy.study.loading import load_study
+from contactstudy.verification.cases.contact_ellipse import contact_ellipse
 from contactstudy.verification.check import CaseResult, Check, ResultTable
 
 LOADS = np.array([0.25, 0.5, 0.75, 1.0]) * 67.4e3

@@ -4,7 +4,7 @@ import numpy as np
 
 from contactstudy.arrays import Array, IntArray
 from contactstudy.solids.hexahedron import hex_stiffness, strain_operators
-from contactstudy.solids.stress import hex_stress, nodal_stress
+from contactstudy.verification.cases.element_stress import hex_stress, nodal_stress
 
 
 def _elements(ny: int, nz: int) -> IntArray:

@@ -10,7 +10,7 @@ from scipy.sparse.linalg import splu
 
 from contactstudy.arrays import Array, IntArray
 from contactstudy.solids.hexahedron import hex_stiffness, strain_operators
-from contactstudy.solids.stress import hex_stress, nodal_stress
+from contactstudy.verification.cases.element_stress import hex_stress, nodal_stress
 from contactstudy.verification.cases.point_loads import flamant
 
 
