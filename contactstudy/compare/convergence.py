@@ -13,7 +13,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import brentq
 
 from contactstudy.exceptions import InputError, NumericalError
 
@@ -53,6 +52,8 @@ def observed_order(values: Sequence[float], sizes: Sequence[float]) -> float:
     NumericalError
         When the values do not converge monotonically, so that no order can be observed.
     """
+    from scipy.optimize import brentq
+
     if len(values) != 3 or len(sizes) != 3:
         raise InputError("an observed order needs three values and three sizes, finest first")
     r21, r32 = sizes[1] / sizes[0], sizes[2] / sizes[1]

@@ -14,8 +14,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.integrate import trapezoid
-from scipy.interpolate import make_interp_spline
 
 from contactstudy.arrays import Array
 from contactstudy.exceptions import InputError
@@ -39,6 +37,8 @@ class SpragueGeers:
 
 def inner(a: ArrayLike, b: ArrayLike, x: ArrayLike) -> float:
     """Integral of ``a b`` over the positions `x` (n,); further axes are summed over."""
+    from scipy.integrate import trapezoid
+
     return float(np.sum(trapezoid(np.asarray(a) * np.asarray(b), np.asarray(x), axis=-1)))
 
 
@@ -130,6 +130,8 @@ def at_positions(a: ArrayLike, x_a: ArrayLike, x: ArrayLike) -> Array:
     The spline's error falls with the fourth power of the step, two orders faster than that of
     the time stepper, so that interpolation does not show in a comparison of time steps.
     """
+    from scipy.interpolate import make_interp_spline
+
     a, x_a, x = (np.asarray(v, dtype=float) for v in (a, x_a, x))
     nearest = np.clip(np.searchsorted(x_a, x - 1e-9 * np.abs(x)), 0, len(x_a) - 1)
     if np.allclose(x_a[nearest], x, rtol=1e-9, atol=0.0):
@@ -140,6 +142,8 @@ def at_positions(a: ArrayLike, x_a: ArrayLike, x: ArrayLike) -> Array:
 
 
 def _without_mean(a: ArrayLike, x: ArrayLike) -> Array:
+    from scipy.integrate import trapezoid
+
     a = np.asarray(a, dtype=float)
     length = inner(np.ones(a.shape[-1]), np.ones(a.shape[-1]), x)
     mean = trapezoid(a, np.asarray(x), axis=-1) / length

@@ -3,7 +3,6 @@
 import math
 
 import numpy as np
-import scipy.integrate
 
 from contactstudy.exceptions import InputError
 
@@ -44,6 +43,8 @@ def passing_amplitude(
     InputError
         If the record is shorter than one period or not increasing.
     """
+    import scipy.integrate
+
     x, s = np.asarray(position, dtype=float), np.asarray(signal, dtype=float)
     period = wavelength if fundamental is None else fundamental
     problems = []

@@ -15,10 +15,10 @@ and give ``rho_0 = 2 rho(t/2) - rho(t)``.
 """
 
 import numpy as np
-from numba import njit
 from scipy.ndimage import binary_dilation
 
 from contactstudy.arrays import Array, BoolArray
+from contactstudy.compiled import compiled
 from contactstudy.exceptions import NumericalError
 
 _SETTLED = 0.01
@@ -64,7 +64,7 @@ def patch_area(
     return float(np.pi * rho**2)
 
 
-@njit(cache=True)
+@compiled
 def _radius(x: np.ndarray, y: np.ndarray, gap: np.ndarray, mirrored: bool, limit: float) -> float:
     """rho_0 from lines up to a limit of t, or -1 for a patch that reaches an outer line."""
     nx, ny = gap.shape
@@ -85,7 +85,7 @@ def _radius(x: np.ndarray, y: np.ndarray, gap: np.ndarray, mirrored: bool, limit
     return _edge(t, np.diff(x), np.diff(lines), limit, spacing, 2.0 if mirrored else 1.0)
 
 
-@njit(cache=True)
+@compiled
 def _edge(
     t: np.ndarray, dx: np.ndarray, dy: np.ndarray, limit: float, spacing: float, halves: float
 ) -> float:
@@ -109,7 +109,7 @@ def _edge(
     return max(2.0 * inner - outer, 0.0)
 
 
-@njit(cache=True)
+@compiled
 def area_below(t: np.ndarray, dx: np.ndarray, dy: np.ndarray, level: float) -> float:
     """Area where an interpolated function is below a level.
 
@@ -148,7 +148,7 @@ def area_below(t: np.ndarray, dx: np.ndarray, dy: np.ndarray, level: float) -> f
     return total
 
 
-@njit(cache=True)
+@compiled
 def _part_below(a: float, b: float, c: float, level: float) -> float:
     """Part of a triangle where the linear function with these corner values is below a level."""
     low, high = min(a, b, c), max(a, b, c)

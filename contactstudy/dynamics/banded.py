@@ -6,8 +6,8 @@ from functools import cached_property
 import numpy as np
 import scipy.linalg
 import scipy.sparse as sp
-from numba import njit
 
+from contactstudy.compiled import compiled, compiled_in_any_order
 from contactstudy.exceptions import NumericalError
 
 
@@ -135,7 +135,7 @@ class Factor:
         return columns[:, width : width + self.n].T
 
 
-@njit(cache=True, fastmath={"reassoc", "contract"})
+@compiled_in_any_order
 def _forward(
     left: np.ndarray, inverse: np.ndarray, lead: np.ndarray, x: np.ndarray, first: int, stop: int
 ) -> None:
@@ -163,7 +163,7 @@ def _forward(
             here[j] = total
 
 
-@njit(cache=True, fastmath={"reassoc", "contract"})
+@compiled_in_any_order
 def _backward(
     left: np.ndarray, inverse: np.ndarray, lead: np.ndarray, x: np.ndarray, first: int, stop: int
 ) -> None:
@@ -195,7 +195,7 @@ def _backward(
             )
 
 
-@njit(cache=True)
+@compiled
 def _solve_near(
     left: np.ndarray, inverse: np.ndarray, lead: np.ndarray, x: np.ndarray, first: int, last: int
 ) -> None:
@@ -219,7 +219,7 @@ def _solve_near(
         low = max(low - 8, 0)
 
 
-@njit(cache=True)
+@compiled
 def _above(x: np.ndarray, start: int, stop: int, bound: float) -> bool:
     """Whether any of x[start:stop] is larger than the bound."""
     return bool(np.abs(x[start:stop]).max() > bound)

@@ -1,10 +1,11 @@
 """Kernels on sparse rows, each a few dofs and weights: what the steps do most often."""
 
 import numpy as np
-from numba import njit
+
+from contactstudy.compiled import compiled
 
 
-@njit(cache=True)
+@compiled
 def row_values(dofs: np.ndarray, weights: np.ndarray, u: np.ndarray) -> np.ndarray:
     """Values of m rows at a vector: sum over k of weights (m, k) times u[dofs (m, k)]."""
     values = np.zeros(dofs.shape[0])
@@ -14,7 +15,7 @@ def row_values(dofs: np.ndarray, weights: np.ndarray, u: np.ndarray) -> np.ndarr
     return values
 
 
-@njit(cache=True)
+@compiled
 def dense_rows(dofs: np.ndarray, weights: np.ndarray, n: int) -> np.ndarray:
     """The rows written out, (m, n); equal dofs in a row add up."""
     rows = np.zeros((dofs.shape[0], n))
@@ -24,7 +25,7 @@ def dense_rows(dofs: np.ndarray, weights: np.ndarray, n: int) -> np.ndarray:
     return rows
 
 
-@njit(cache=True)
+@compiled
 def row_products(dofs: np.ndarray, weights: np.ndarray, vectors: np.ndarray) -> np.ndarray:
     """Every row at every vector (p, n), as (m, p)."""
     products = np.zeros((dofs.shape[0], vectors.shape[0]))

@@ -15,8 +15,8 @@ from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
-from numba import njit
 
+from contactstudy.compiled import compiled
 from contactstudy.dynamics.banded import Factor, LinearSystem
 from contactstudy.dynamics.integrators import (
     Integrator,
@@ -184,7 +184,7 @@ def march(
         yield State(step, step * dt, u, v, a, load, contact)
 
 
-@njit(cache=True)
+@compiled
 def _advance(
     c0: float,
     c2: float,

@@ -2,7 +2,8 @@
 
 import numpy as np
 import scipy.sparse as sp
-from numba import njit
+
+from contactstudy.compiled import compiled_in_any_order
 
 
 def windows(matrix: sp.csr_array) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
@@ -47,7 +48,7 @@ def windows(matrix: sp.csr_array) -> tuple[np.ndarray, np.ndarray, np.ndarray, n
     return first, width, begin, np.concatenate(pieces)
 
 
-@njit(cache=True, fastmath={"reassoc", "contract"})
+@compiled_in_any_order
 def add_product(
     first: np.ndarray,
     width: np.ndarray,

@@ -9,7 +9,6 @@ of the approach), which linear interpolation would add and take away with every 
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.interpolate import CubicSpline
 
 from contactstudy.arrays import Array, IntArray
 from contactstudy.exceptions import InputError
@@ -99,6 +98,8 @@ class SplineLine:
     """
 
     def __init__(self, lines: Array, mirrored: bool = False) -> None:
+        from scipy.interpolate import CubicSpline
+
         lines = np.asarray(lines, dtype=float)
         m = len(lines)
         if m < (3 if mirrored else 4):

@@ -8,8 +8,6 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Literal
 
-from scipy.optimize import brentq, minimize_scalar
-
 from contactstudy.exceptions import InputError, NumericalError
 from contactstudy.geometry.pose import PlacedWheel, Pose
 from contactstudy.geometry.smooth_touch import SmoothTouch, smooth_touch
@@ -70,6 +68,8 @@ class Wheelset:
         InputError
             If the rail's profile does not reach so deep.
         """
+        from scipy.optimize import brentq, minimize_scalar
+
         rail, pose = self.rail, Pose(self.rail_inclination)
 
         def height(s: float) -> float:
@@ -119,6 +119,7 @@ class Wheelset:
         NumericalError
             If there is none below 0.1 rad.
         """
+        from scipy.optimize import brentq
 
         def misfit(roll: float) -> float:
             # heights of the axle's middle by either wheel: h = z_tape +- half sin(roll) + R cos

@@ -17,8 +17,6 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import brentq
-from scipy.special import ellipk, elliprd
 
 from contactstudy.validation import not_negative, positive, raise_if
 
@@ -123,6 +121,9 @@ def hertz_contact(load: float, modulus: float, radius_x: float, radius_y: float)
     InputError
         If an argument is not positive and finite (a line contact has its own function).
     """
+    from scipy.optimize import brentq
+    from scipy.special import ellipk, elliprd
+
     raise_if(
         not_negative("load", load, "N")
         + positive("modulus", modulus, "Pa")

@@ -18,10 +18,10 @@ the half-space's stresses, those of bending and support, is smooth over the patc
 from collections.abc import Callable
 from dataclasses import dataclass
 
-import numba
 import numpy as np
 
 from contactstudy.arrays import Array
+from contactstudy.compiled import compiled
 from contactstudy.exceptions import InputError
 from contactstudy.halfspace.pressure_field import SurfacePressure
 from contactstudy.solids.stress import maximum_shear, von_mises
@@ -84,7 +84,7 @@ def half_space_stress(load: SurfacePressure, points: Array, poisson_ratio: float
     return stress
 
 
-@numba.njit(cache=True)
+@compiled
 def _sum_corners(
     points: Array, cx: Array, cy: Array, weight: Array, nu: float, stress: Array
 ) -> None:

@@ -3,14 +3,14 @@
 import math
 
 import numpy as np
-from numba import njit
 
 from contactstudy.arrays import Array
+from contactstudy.compiled import compiled
 
 _BLOCK = 256  # positions handled side by side: fills the vector units, stays in the first cache
 
 
-@njit(cache=True)
+@compiled
 def equally_spaced_sum(
     x: Array,
     first: float,
@@ -45,7 +45,7 @@ def equally_spaced_sum(
             out[start + j] = zr[j] * math.cos(angle) - zi[j] * math.sin(angle)
 
 
-@njit(cache=True)
+@compiled
 def direct_sum(
     x: Array,
     cycles: Array,

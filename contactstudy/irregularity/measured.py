@@ -1,19 +1,22 @@
 """Measured profiles."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.interpolate import BSpline, make_interp_spline
-from scipy.signal import butter, sosfiltfilt
 
 from contactstudy.arrays import Array
 from contactstudy.exceptions import InputError
 from contactstudy.irregularity.profile import check_derivative
 from contactstudy.irregularity.table import read_columns
+
+if TYPE_CHECKING:
+    from scipy.interpolate import BSpline
 
 UNITS = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "µm": 1e-6, "μm": 1e-6}
 Interpolation = Literal["cubic", "linear"]
@@ -57,6 +60,8 @@ class MeasuredProfile:
 
     @cached_property
     def _spline(self) -> BSpline:
+        from scipy.interpolate import make_interp_spline
+
         return make_interp_spline(self.positions, self.levels, k=_DEGREE[self.interpolation])
 
     def __call__(self, x: ArrayLike, derivative: int = 0) -> Array:
@@ -164,6 +169,9 @@ def _band_passed(
     wavelengths: tuple[float, float],
     interpolation: Interpolation,
 ) -> tuple[Array, Array]:
+    from scipy.interpolate import make_interp_spline
+    from scipy.signal import butter, sosfiltfilt
+
     step = np.diff(x)
     dx = float(np.median(step))
     if np.abs(step - dx).max() > 1e-6 * dx:

@@ -12,7 +12,6 @@ from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.integrate import quad
 
 from contactstudy.arrays import Array
 from contactstudy.exceptions import InputError
@@ -105,6 +104,8 @@ class Spectrum:
 
     def variance(self, lower: float, upper: float) -> float:
         """Variance between two angular wavenumbers [rad/m]: 2 int G d omega [m^2]."""
+        from scipy.integrate import quad
+
         turn = 1.0 if self.convention.wavenumber == "rad/m" else 2.0 * np.pi
         kinks = [turn * k for k in self.breaks if lower < turn * k < upper]
         # integrated over ln omega, in which a power law is smooth over many decades

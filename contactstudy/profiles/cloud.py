@@ -7,14 +7,19 @@ other is taken out as long as the fit suffers less than the points' own scatter 
 curve is smooth along the crown and still follows the gauge corner.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import BSpline
 
 from contactstudy.arrays import Array
 from contactstudy.exceptions import InputError
+
+if TYPE_CHECKING:
+    from scipy.interpolate import BSpline
 
 _DEGREE = 3
 _BIN = 1e-4  # length [m] over which points are taken together where knots are chosen
@@ -155,6 +160,8 @@ def _agreed(p: Array, s: Array, knots: Array, shortest: float) -> CloudFit:
 
 def _spline(p: Array, s: Array, knots: Array, wavelength: float) -> BSpline:
     """Least squares with a penalty that bridges places without points."""
+    from scipy.interpolate import BSpline
+
     t = _padded(knots)
     B = BSpline.design_matrix(np.clip(s, knots[0], knots[-1]), t, _DEGREE)
     G = (B.T @ B).toarray() + _penalty(knots, len(p), wavelength)
@@ -179,6 +186,8 @@ def _penalty(knots: Array, n: int, wavelength: float) -> Array:
 
 def _third(knots: Array) -> Array:
     """Third derivative within the intervals from the coefficients, (intervals, coefficients)."""
+    from scipy.interpolate import BSpline
+
     t = _padded(knots)
     unit = BSpline(t, np.eye(len(t) - _DEGREE - 1), _DEGREE)
     return np.asarray(unit.derivative(3)(0.5 * (knots[:-1] + knots[1:])))
@@ -186,6 +195,8 @@ def _third(knots: Array) -> Array:
 
 def _measured(p: Array, spline: BSpline, u: Array) -> CloudFit:
     """Feet of the points on a spline, in arc length, with the spline over the same."""
+    from scipy.interpolate import BSpline
+
     end = float(spline.t[-1])
     first, second = spline.derivative(1), spline.derivative(2)
     u = np.clip(u, 0.0, end)
@@ -228,6 +239,8 @@ def _needed(p: Array, fit: CloudFit, shortest: float) -> Array:
     sum of squares grows by ``|j|^2 / (J G^-1 J^T)``, G being the Gram matrix. By Schwarz's
     criterion a knot is worth its freedom if that exceeds ``sigma^2 log n``.
     """
+    from scipy.interpolate import BSpline
+
     # means over short stretches stand for the points
     bins = np.floor(fit.s / _BIN).astype(np.int64)
     _, group, count = np.unique(bins, return_inverse=True, return_counts=True)

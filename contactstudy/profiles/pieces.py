@@ -4,15 +4,19 @@ Every piece is walked from its start, t = 0, to its end, t = length, and answers
 unit tangents and the rate at which the tangent turns to the left (signed curvature).
 """
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
-from scipy.interpolate import BSpline, CubicHermiteSpline
 
 from contactstudy.arrays import Array
+
+if TYPE_CHECKING:
+    from scipy.interpolate import BSpline, CubicHermiteSpline
 
 Frame = tuple[Array, Array, Array]
 
@@ -208,6 +212,8 @@ class ParametricPiece:
     @cached_property
     def _parameter(self) -> CubicHermiteSpline:
         """U as a function of the arc length t: du/dt = 1/|c'|."""
+        from scipy.interpolate import CubicHermiteSpline
+
         u = np.linspace(self.begin, self.end, self.panels + 1)
         half = 0.5 * np.diff(u)
         inner = (u[:-1] + half)[:, None] + half[:, None] * _NODES

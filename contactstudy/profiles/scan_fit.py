@@ -9,7 +9,6 @@ the arc length alone belongs to the curve), on what small motions would make of 
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.interpolate import BSpline
 
 from contactstudy.arrays import Array, IntArray
 from contactstudy.exceptions import InputError
@@ -91,6 +90,8 @@ def regressed(fit: CloudFit, columns: Array) -> tuple[Array, Array]:
 
 def curve_of(fit: CloudFit, zero: float, upper: bool, name: str) -> tuple[ProfileCurve, Array]:
     """Curve with its origin at y = zero, and that origin (0, y, z) in the fit's axes."""
+    from scipy.interpolate import BSpline
+
     ends = fit.spline([0.0, fit.length])[:, 0]
     if not ends[0] < zero < ends[1]:
         what = "the rail's middle plane" if upper else "the tape circle"

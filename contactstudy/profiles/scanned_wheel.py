@@ -1,7 +1,6 @@
 """Smooth wheel treads fitted to scanned surfaces: of revolution about an axis near Y."""
 
 import numpy as np
-from scipy.interpolate import BSpline
 
 from contactstudy.arrays import Array
 from contactstudy.exceptions import InputError
@@ -104,6 +103,8 @@ def _from_axis(p: Array, x0: float, z0: float, yaw: float) -> tuple[Array, Array
 
 def _first_axis(p: Array, n: Array, name: str) -> tuple[float, float, float]:
     """Axis through the points whose facets face it, by linear least squares."""
+    from scipy.interpolate import BSpline
+
     q = p[np.abs(n[:, 1]) < 0.2]
     q = q[part_of(len(q))]
     if len(q) < 20:

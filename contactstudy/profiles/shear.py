@@ -4,7 +4,6 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
-from scipy.sparse.linalg import splu
 
 from contactstudy.arrays import Array, IntArray
 
@@ -89,6 +88,8 @@ def shear_coefficient(
     float
         Shear coefficient [-].
     """
+    from scipy.sparse.linalg import splu
+
     nu, weight, grad = poisson_ratio, mesh.weight, mesh.gradient
     a = mesh.point[..., direction] - centroid[direction]
     b = mesh.point[..., 1 - direction] - centroid[1 - direction]

@@ -5,7 +5,6 @@ from pathlib import Path
 from typing import Literal
 
 import numpy as np
-from scipy.interpolate import BSpline
 
 from contactstudy.arrays import Array
 from contactstudy.csv_rows import finite_number, listed, read_rows
@@ -90,6 +89,8 @@ def fitted_curve(
     name : str
         Name of the curve.
     """
+    from scipy.interpolate import BSpline
+
     fit = fit_cloud(points, smoothing, name)
     # z = 0 at y = 0: Newton along the curve from the nearest point
     s = float(fit.s[np.argmin(np.abs(points[:, 0]))])

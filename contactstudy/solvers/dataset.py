@@ -1,11 +1,16 @@
 """The labelled result of one run, the same for both solvers."""
 
+from __future__ import annotations
+
 from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 import numpy as np
-import xarray as xr
 
 from contactstudy.solvers.journey import Journey
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 SIGNALS: dict[str, tuple[str, str]] = {
     "contact_force": ("N", "contact force, positive in compression"),
@@ -53,6 +58,8 @@ def history_dataset(
     xarray.Dataset
         Dimension `time` [s] and, with several wheels, a leading `wheel`; coordinate `position`.
     """
+    import xarray as xr
+
     one_wheel = positions.shape[1] == 1
 
     def variable(values: np.ndarray, unit: str, text: str) -> xr.Variable:

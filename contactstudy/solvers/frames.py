@@ -1,13 +1,18 @@
 """The patch at many instants, for an animation."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
-import xarray as xr
 
 from contactstudy.contact.surface import SurfaceCoupling
 from contactstudy.dynamics.stepper import State
 from contactstudy.solvers.patch_fields import node_coordinates, node_fields
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 
 class Frames:
@@ -39,6 +44,8 @@ class Frames:
 
     def into(self, data: xr.Dataset) -> xr.Dataset:
         """Add `frame_pressure` and `frame_contact_status` (frame, point) to a dataset."""
+        import xarray as xr
+
         if not self._fields:
             return data
         names = ("pressure", "contact_status")

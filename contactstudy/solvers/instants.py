@@ -1,10 +1,12 @@
 """Fields that a surface-contact run keeps at chosen instants: the patch, deformed sections."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
-import xarray as xr
 
 from contactstudy.arrays import Array
 from contactstudy.contact.surface import PatchState, SurfaceCoupling
@@ -15,6 +17,9 @@ from contactstudy.solids.wheel_modes import WheelModes, residual_flexibility
 from contactstudy.solvers.patch_fields import node_coordinates, node_fields, stress_variables
 from contactstudy.track.solid import SolidTrack
 from contactstudy.track.unreduced import UnreducedTrack
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 
 @dataclass(frozen=True)

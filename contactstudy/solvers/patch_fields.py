@@ -1,14 +1,19 @@
 """Fields on the wheel's tread nodes: pressure, gap, contact status, and the stress below them."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
-import xarray as xr
 
 from contactstudy.arrays import Array
 from contactstudy.geometry.points import ContactPoints
 from contactstudy.halfspace.pressure_field import SurfacePressure, recovered_pressure
 from contactstudy.halfspace.subsurface import StressMaximum, stress_maxima
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 _STATUS = "contact status: part of the node's area whose points are in contact, 0 open, 1 closed"
 _INVARIANTS = {
@@ -144,4 +149,6 @@ def stress_variables(
 
 
 def _variable(dims: tuple[str, ...], values: object, unit: str, text: str) -> xr.Variable:
+    import xarray as xr
+
     return xr.Variable(dims, np.asarray(values), {"units": unit, "long_name": text})

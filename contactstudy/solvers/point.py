@@ -1,9 +1,11 @@
 """The point-contact solver: the paper's section 3.1, and its nonlinear and rigid relatives."""
 
+from __future__ import annotations
+
 import time
+from typing import TYPE_CHECKING
 
 import numpy as np
-import xarray as xr
 
 from contactstudy.contact.laws import ContactLaw, HertzSpring, LinearSpring, RigidContact
 from contactstudy.contact.point import PointCoupling
@@ -17,6 +19,9 @@ from contactstudy.track.discrete import DiscreteTrack
 from contactstudy.track.model import Direction, Track
 from contactstudy.validation import raise_if
 from contactstudy.vehicle import Vehicle
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 RIGID_SPECTRAL_RADIUS = 0.5
 """Spectral radius of the integrator that a rigid contact gets when none is asked for."""

@@ -1,12 +1,14 @@
 """The run that both solvers share: static start, time steps, recorded histories."""
 
+from __future__ import annotations
+
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 import scipy.sparse as sp
-import xarray as xr
 
 from contactstudy.dynamics.banded import LinearSystem
 from contactstudy.dynamics.rows import row_values
@@ -17,6 +19,9 @@ from contactstudy.solvers.journey import Journey
 from contactstudy.track.discrete import DiscreteTrack
 from contactstudy.track.model import Direction
 from contactstudy.vehicle import Vehicle
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 Progress = Callable[[int, int], None]
 

@@ -1,10 +1,12 @@
 """The surface-contact solver: meshed elastic wheel on meshed elastic rail."""
 
+from __future__ import annotations
+
 import time
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
-import xarray as xr
 
 from contactstudy.arrays import Array
 from contactstudy.contact.press import PressCurve, press_curve
@@ -25,6 +27,9 @@ from contactstudy.track.solid import SolidTrack
 from contactstudy.track.unreduced import UnreducedTrack
 from contactstudy.validation import positive, raise_if
 from contactstudy.vehicle import Vehicle, with_wheel_modes
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 PRESS_LOADS = np.linspace(0.25, 2.0, 8)
 """Loads of the static press that comes with a run, in static wheel loads."""

@@ -20,14 +20,15 @@ import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
-
-import xarray as xr
+from typing import TYPE_CHECKING, Any
 
 from contactstudy.arrays import Array
 from contactstudy.exceptions import InputError
 from contactstudy.files import writing
 from contactstudy.store import netcdf_attributes
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 RESULT_FILE = "result.nc"
 METRICS_FILE = "metrics.json"
@@ -142,6 +143,8 @@ def write_results(results: StudyResults, out_dir: Path) -> None:
 
     Both are written beside their final place and renamed, so that neither is ever half there.
     """
+    import xarray as xr
+
     out_dir = Path(out_dir)
     with writing(out_dir / RESULT_FILE) as path:
         root = xr.Dataset(attrs={key: getattr(results, key) for key in _ROOT_TEXTS})
@@ -170,6 +173,8 @@ def read_results(out_dir: Path) -> StudyResults:
     InputError
         When a file is missing or damaged.
     """
+    import xarray as xr
+
     out_dir = Path(out_dir)
     path = out_dir / RESULT_FILE
     try:
@@ -202,6 +207,8 @@ _LEVELS = ("profile", "measured_profile")
 
 
 def _irregularity_dataset(info: IrregularityInfo) -> xr.Dataset:
+    import xarray as xr
+
     data = xr.Dataset()
     for key in _SPECTRA:
         spectrum = getattr(info, key)

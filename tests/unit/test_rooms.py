@@ -18,6 +18,7 @@ ORDER = (
         "resources",
         "files",
         "code",
+        "compiled",
         "process",
         "provenance",
         "store",

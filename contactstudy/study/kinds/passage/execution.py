@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-import xarray as xr
+from typing import TYPE_CHECKING, Any
 
 from contactstudy.executor import Progress
 from contactstudy.solids.cache import Body, cached
@@ -14,6 +12,9 @@ from contactstudy.study.kinds.passage.roughness import irregularity_of
 from contactstudy.study.kinds.passage.runs import PointRun, SurfaceRun
 from contactstudy.study.kinds.passage.schema import Study
 from contactstudy.study.kinds.passage.vehicles import vehicle
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 
 def execute_run(study: Study, run: str, progress: Progress | None = None) -> xr.Dataset:

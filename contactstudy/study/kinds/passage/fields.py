@@ -14,12 +14,10 @@ the pressure, see `contactstudy.halfspace.subsurface`.
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 from xml.sax.saxutils import quoteattr
 
-import meshio
 import numpy as np
-import xarray as xr
 
 from contactstudy.arrays import Array
 from contactstudy.files import writing
@@ -28,6 +26,10 @@ from contactstudy.halfspace.subsurface import SHALLOWEST, half_space_stress
 from contactstudy.solids.stress import maximum_shear, von_mises
 from contactstudy.solvers.patch_fields import instant_pressure
 from contactstudy.study.results import StudyResults
+
+if TYPE_CHECKING:
+    import meshio
+    import xarray as xr
 
 FIELDS = "fields"
 _PARTS = ("patch", "below")
@@ -75,6 +77,8 @@ def patch_mesh(run: xr.Dataset, instant: int) -> meshio.Mesh:
         With fields at instants, see `contactstudy.solvers.patch_fields`.
     instant : int
     """
+    import meshio
+
     x, y = (np.unique(np.asarray(run[name].values)) for name in ("point_x", "point_y"))
     mirrored = bool(run["point_y"].attrs.get("symmetric", y[0] >= -1e-9))
     across = np.r_[-y[:0:-1], y] if mirrored else y
@@ -95,6 +99,8 @@ def patch_mesh(run: xr.Dataset, instant: int) -> meshio.Mesh:
 
 def body_mesh(run: xr.Dataset, instant: int) -> meshio.Mesh | None:
     """Block below the patch with its stresses; None where there is no contact."""
+    import meshio
+
     load = instant_pressure(run, instant)
     if not load.area > 0:
         return None

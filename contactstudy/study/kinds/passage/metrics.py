@@ -20,14 +20,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import xarray as xr
 
 from contactstudy.arrays import Array
 from contactstudy.compare import norms
 from contactstudy.compare.bands import level_differences
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 SIGNALS = ("contact_force", "wheel_displacement", "wheel_acceleration", "rail_displacement")
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
@@ -24,16 +25,42 @@ class Described:
 
     Attributes
     ----------
-    info : IrregularityInfo
-    files : dict of str to str
-        Name of each measured file -> SHA-256 of its content.
+    study : Study
+    profile : Profile
+        Of its runs.
+    measured : tuple of MeasuredProfile
+        A measured level of the study as it is and band-passed; nothing without one.
     warnings : tuple of str
         For the user, e.g. that the profile repeats itself.
     """
 
-    info: IrregularityInfo
-    files: dict[str, str]
+    study: Study
+    profile: irr.Profile
+    measured: tuple[irr.MeasuredProfile, ...]
     warnings: tuple[str, ...]
+
+    @cached_property
+    def files(self) -> dict[str, str]:
+        """Name of each measured file -> SHA-256 of its content."""
+        if not self.measured:
+            return {}
+        path = Path(self.study.irregularity.measured_file)
+        return {path.name: file_digest(path)}
+
+    @cached_property
+    def info(self) -> IrregularityInfo:
+        """What Fig. 1 shows."""
+        table = self.study.irregularity
+        smooth = table.spectrum == "smooth"
+        generated = not smooth and table.spectrum != "measured"
+        measured, level = _measured_info(table, *self.measured) if self.measured else (None, None)
+        return IrregularityInfo(
+            spectrum=None if smooth else _curve(table),
+            estimate=_estimate(table, self.profile) if generated else None,
+            profile=None if smooth else _sampled(self.study, self.profile),
+            measured=measured,
+            measured_profile=level,
+        )
 
 
 def spectrum_of(table: IrregularityTable) -> irr.Spectrum:
@@ -96,32 +123,24 @@ def _measured(
 
 
 def describe(study: Study) -> Described:
-    """Read the study's irregularity and sample what Fig. 1 shows.
+    """Read the study's irregularity.
 
     Raises
     ------
     InputError
         When a measured file cannot be used or does not cover the journey.
     """
-    table = study.irregularity
+    table, measured = study.irregularity, tuple[irr.MeasuredProfile, ...]()
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         profile = irregularity_of(study)
         irr.check_repeat(profile, study.journey.end - study.journey.start)
-    files, measured, measured_profile = {}, None, None
     if table.measured_file:
-        path = Path(table.measured_file)
-        measured, measured_profile = _measured_info(table, path)
-        files[path.name] = file_digest(path)
-    generated = table.spectrum not in ("measured", "smooth")
-    info = IrregularityInfo(
-        spectrum=_curve(table) if table.spectrum != "smooth" else None,
-        estimate=_estimate(table, profile) if generated else None,
-        profile=_sampled(study, profile) if table.spectrum != "smooth" else None,
-        measured=measured,
-        measured_profile=measured_profile,
-    )
-    return Described(info, files, tuple(str(w.message) for w in caught))
+        measured = _measured(table, None), _measured(table, table.wavelengths)
+    described = Described(study, profile, measured, tuple(str(w.message) for w in caught))
+    if measured:
+        _ = described.info  # a level too short for an estimate is refused here
+    return described
 
 
 def _curve(table: IrregularityTable) -> Spectrum:
@@ -159,14 +178,15 @@ def _sampled(study: Study, profile: irr.Profile) -> Level:
     return Level(label, position, profile(position))
 
 
-def _measured_info(table: IrregularityTable, path: Path) -> tuple[Spectrum, Level]:
+def _measured_info(
+    table: IrregularityTable, raw: irr.MeasuredProfile, passed: irr.MeasuredProfile
+) -> tuple[Spectrum, Level]:
     """Spectrum of the level as measured, with its valid band, and the band-passed level."""
-    raw, passed = _measured(table, None), _measured(table, table.wavelengths)
     step = float(np.median(np.diff(raw.positions)))
     even = np.arange(raw.domain[0], raw.domain[1], step)
     estimate = irr.spectral_estimate(raw(even), step)
     band = 2.0 * np.pi / table.wavelengths[1], 2.0 * np.pi / table.wavelengths[0]
-    label = f"measured level ({path.name}, {table.level_column})"
+    label = f"measured level ({Path(table.measured_file).name}, {table.level_column})"
     positive = estimate.wavenumber > 0.0
     spectrum = Spectrum(label, estimate.wavenumber[positive], estimate.density[positive], band)
     return spectrum, Level(label, passed.positions, passed.levels)

@@ -1,12 +1,13 @@
 """Report of a study of positions: every patch, and its course over the lateral shift."""
 
+from __future__ import annotations
+
 import json
 import tempfile
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import xarray as xr
 
 from contactstudy.files import writing
 from contactstudy.plot.curves import Curve, Plot, curve
@@ -17,6 +18,9 @@ from contactstudy.report.quantity import fixed, quantity
 from contactstudy.report.tables import Block, table, text
 from contactstudy.report.typesetting import typeset
 from contactstudy.study.kinds.positions.terminal import COLUMNS
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 _DRAWN = ("y", "approach", "peak_pressure", "area")
 _LABELS = {

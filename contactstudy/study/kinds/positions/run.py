@@ -5,10 +5,9 @@ from __future__ import annotations
 import csv
 import json
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import xarray as xr
 
 from contactstudy.exceptions import InputError, NumericalError
 from contactstudy.files import ensure_writable, writing
@@ -21,6 +20,9 @@ from contactstudy.store import Store, digest, store_key
 from contactstudy.study.kinds.positions.check import check_positions, pressings, roll_of
 from contactstudy.study.kinds.positions.table import PositionsStudy
 from contactstudy.study.results import RESULT_FILE
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 CSV_FILE = "patches.csv"
 # name -> unit, meaning
@@ -131,6 +133,8 @@ def _pressed(study: PositionsStudy, side: Side, k: int) -> list[dict[str, Any]]:
 
 
 def _dataset(study: PositionsStudy, rows: list[dict[str, Any]]) -> xr.Dataset:
+    import xarray as xr
+
     data = xr.Dataset()
     data["wheel"] = ("row", np.array([row["wheel"] for row in rows], dtype=object))
     for name in ("position", "patch"):

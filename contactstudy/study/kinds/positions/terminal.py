@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-import xarray as xr
 from rich.box import SIMPLE
 from rich.console import Console
 from rich.table import Table
 
 from contactstudy.study.kinds.positions.table import PositionsStudy
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 #: Variable -> heading, scale and decimals of what is shown.
 COLUMNS = {
