@@ -15,7 +15,6 @@ and give ``rho_0 = 2 rho(t/2) - rho(t)``.
 """
 
 import numpy as np
-from scipy.ndimage import binary_dilation
 
 from contactstudy.arrays import Array, BoolArray
 from contactstudy.compiled import compiled
@@ -52,6 +51,8 @@ def patch_area(
     NumericalError
         If the patch reaches an outer line of the grid.
     """
+    from scipy.ndimage import binary_dilation
+
     nearest = np.inf
     if region is not None:
         # no line may leave the region

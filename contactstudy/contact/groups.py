@@ -1,7 +1,6 @@
 """Several patches of one wheel: which points in contact belong together."""
 
 import numpy as np
-from scipy.ndimage import distance_transform_edt, label
 
 from contactstudy.arrays import Array
 from contactstudy.contact.area import patch_area
@@ -33,6 +32,8 @@ def patch_forces(points: ContactPoints, gap: Array, forces: Array) -> list[Array
         Forces of one patch each, zero elsewhere; the largest resultant first. They sum to the
         given ones. Of half a symmetric model, its half only.
     """
+    from scipy.ndimage import label
+
     pressing = ((forces > 0.0) | (gap < _OPEN)).reshape(len(points.x), len(points.y))
     # two Gauss points an interval, or one point a node
     parts = 2 if points.facet.shape[1] == 1 else 1
@@ -76,6 +77,8 @@ def contact_area(points: ContactPoints, gap: Array, forces: Array) -> float:
 
 
 def _area(points: ContactPoints, gap: Array, patches: list[Array]) -> float:
+    from scipy.ndimage import distance_transform_edt
+
     shape = len(points.x), len(points.y)
     grid = points.x, points.arc, gap.reshape(shape), points.symmetric
     if len(patches) < 2:

@@ -1,11 +1,17 @@
 """Boxes that enclose a surface piece by piece, for the search of what comes near it."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 import numpy as np
-import trimesh
 
 from contactstudy.arrays import Array
 from contactstudy.exceptions import InputError
 from contactstudy.profiles.curve import ProfileCurve
+
+if TYPE_CHECKING:
+    import trimesh
 
 
 def facet_boxes(

@@ -1,7 +1,10 @@
 """Triangulated surfaces of rails and wheels from their profiles, and the search between them."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 import numpy as np
-import trimesh
 from numpy.typing import ArrayLike
 
 from contactstudy.arrays import Array
@@ -10,6 +13,9 @@ from contactstudy.geometry.placement import Geometry
 from contactstudy.geometry.pose import PlacedWheel, Pose
 from contactstudy.geometry.search import CandidateList, FacetSearch, grid_mesh
 from contactstudy.profiles.curve import ProfileCurve
+
+if TYPE_CHECKING:
+    import trimesh
 
 
 def rail_surface(rail: ProfileCurve, x: ArrayLike, s: ArrayLike) -> trimesh.Trimesh:
@@ -60,6 +66,8 @@ def in_track_axes(mesh: trimesh.Trimesh, pose: Pose, wheel: bool) -> trimesh.Tri
 
     The wheel's tape circle is level with the crown of the rail.
     """
+    import trimesh
+
     v = np.asarray(mesh.vertices, dtype=float)
     if wheel:
         v = v @ pose.to_track.T + np.array([0.0, pose.lateral, 0.0])

@@ -7,13 +7,19 @@ returned, against boxes that enclose pieces of the other body's surface. The BVH
 on the undeformed surface; the bodies' relative position enters through a transform.
 """
 
-import fcl
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 import numpy as np
-import trimesh
 
 from contactstudy.arrays import Array, IntArray
 from contactstudy.exceptions import InputError
 from contactstudy.geometry.boxes import facet_boxes
+
+if TYPE_CHECKING:
+    import fcl
+    import trimesh
 
 
 def grid_mesh(nodes: Array) -> trimesh.Trimesh:
@@ -22,6 +28,8 @@ def grid_mesh(nodes: Array) -> trimesh.Trimesh:
     Node ``i*ny + j``; quadrilateral ``q = i*(ny-1) + j`` becomes the triangles ``2q`` and
     ``2q + 1``. Unprocessed, so numbers are kept; normals up where x and y grow with i and j.
     """
+    import trimesh
+
     nx, ny, _ = nodes.shape
     node = np.arange(nx * ny).reshape(nx, ny)
     a, b, c, d = node[:-1, :-1], node[1:, :-1], node[1:, 1:], node[:-1, 1:]
@@ -44,6 +52,8 @@ class FacetSearch:
     """
 
     def __init__(self, mesh: trimesh.Trimesh) -> None:
+        import fcl
+
         if len(mesh.faces) == 0:
             raise InputError("contact search: the surface has no facets")
         self.mesh = mesh
@@ -65,6 +75,8 @@ class FacetSearch:
         ndarray of int
             Triangle numbers, sorted, each once.
         """
+        import fcl
+
         self._object.setTranslation(np.zeros(3) if offset is None else np.asarray(offset))
         # room for every facet: FCL stops silently at the limit
         request = fcl.CollisionRequest(
@@ -81,8 +93,10 @@ class FacetSearch:
         return np.array(sorted(found), dtype=np.int64)
 
 
-def bounding_volumes(mesh: trimesh.Trimesh) -> "fcl.BVHModel":
+def bounding_volumes(mesh: trimesh.Trimesh) -> fcl.BVHModel:
     """FCL's bounding volume hierarchy of a triangulated surface."""
+    import fcl
+
     model = fcl.BVHModel()
     model.beginModel(len(mesh.vertices), len(mesh.faces))
     model.addSubModel(np.asarray(mesh.vertices, dtype=float), np.asarray(mesh.faces))

@@ -1,14 +1,18 @@
 """First touch of two arbitrary triangulated bodies along the vertical."""
 
-from dataclasses import dataclass
+from __future__ import annotations
 
-import fcl
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
 import numpy as np
-import trimesh
 
 from contactstudy.arrays import Array
 from contactstudy.exceptions import InputError, NumericalError
 from contactstudy.geometry.search import FacetSearch, bounding_volumes
+
+if TYPE_CHECKING:
+    import trimesh
 
 
 @dataclass(frozen=True)
@@ -60,6 +64,8 @@ def first_touch(
     NumericalError
         If the advancement does not come to an end.
     """
+    import fcl
+
     model = FacetSearch(lower)
     fixed = fcl.CollisionObject(model.model, fcl.Transform())
     moving = fcl.CollisionObject(bounding_volumes(upper), fcl.Transform())

@@ -10,7 +10,6 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import fft
 
 from contactstudy.arrays import Array
 from contactstudy.exceptions import InputError, NumericalError
@@ -100,11 +99,15 @@ class LoveGrid:
 
     @cached_property
     def _padded(self) -> tuple[int, int]:
+        from scipy import fft
+
         nx, ny = self.shape
         return fft.next_fast_len(2 * nx - 1, real=True), fft.next_fast_len(2 * ny - 1, real=True)
 
     @cached_property
     def _kernel(self) -> NDArray[np.complex128]:
+        from scipy import fft
+
         (nx, ny), (mx, my) = self.shape, self._padded
         kernel = np.zeros((mx, my))
         i, j = np.arange(-nx + 1, nx), np.arange(-ny + 1, ny)
@@ -116,6 +119,8 @@ class LoveGrid:
 
     def approach(self, pressure: Array) -> Array:
         """Approach of the surfaces (nx, ny) [m] under pressures (nx, ny) [Pa]."""
+        from scipy import fft
+
         nx, ny = self.shape
         product = fft.rfft2(pressure, s=self._padded) * self._kernel
         return np.asarray(fft.irfft2(product, s=self._padded)[:nx, :ny])

@@ -4,7 +4,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import ndimage
 
 from contactstudy.arrays import BoolArray
 from contactstudy.geometry.smooth_touch import SmoothTouch
@@ -105,6 +104,8 @@ class WheelPress:
 
 def patches_of(bodies: Bodies, region: Pressed, travel: float, number: int) -> list[Patch]:
     """Connected parts of a region under pressure."""
+    from scipy import ndimage
+
     labels, count = ndimage.label(region.pressure > 0, structure=np.ones((3, 3)))
     return [_patch(bodies, region, travel, labels == k + 1, labels, number) for k in range(count)]
 
@@ -117,6 +118,8 @@ def _patch(
     labels: NDArray[np.int32],
     number: int,
 ) -> Patch:
+    from scipy import ndimage
+
     grid, facing, love = region.grid, region.facing, region.grid.love
     forces = np.where(part, region.forces, 0.0)
     total = float(forces.sum())

@@ -193,7 +193,7 @@ def _welch(signal: Array, dx: float, n: int) -> tuple[Array, Array, int]:
     # S = |sum_j w_j r_j exp(-2 pi i j k/n)|^2 dx / sum_j w_j^2, averaged over the segments
     power = np.abs(np.fft.rfft(window * segments)) ** 2
     density = power.mean(axis=0) * dx / np.sum(window**2)
-    frequency: Array = np.fft.rfftfreq(n, dx)
+    frequency = np.arange(n // 2 + 1) / (n * dx)
     return frequency, density, len(segments)
 
 

@@ -3,15 +3,17 @@
 All places are given in the file's own unit, so that they are found in the scanner's program.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
-import trimesh
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from contactstudy.arrays import Array, IntArray
+
+if TYPE_CHECKING:
+    import trimesh
 
 THINNEST = 1e-5
 """Height over longest edge below which a triangle is degenerate (single precision rounds it)."""
@@ -86,6 +88,9 @@ def _orientation(faces: IntArray) -> tuple[IntArray, IntArray, IntArray]:
     halves; the triangles that lie in its smaller one as given are flipped. Where the halves are
     one, no winding is consistent, and the triangles along the seam are named.
     """
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
     n = len(faces)
     start, end = faces, np.roll(faces, -1, axis=1)
     low, high = np.minimum(start, end).ravel(), np.maximum(start, end).ravel()

@@ -1,9 +1,11 @@
 """First touch of scanned bodies: by their facets, and by the smooth surfaces fitted to them."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
-import trimesh
 
 from contactstudy.exceptions import InputError
 from contactstudy.geometry.facets import in_track_axes, rail_surface, wheel_surface
@@ -13,6 +15,9 @@ from contactstudy.geometry.touch import FirstTouch, first_touch
 from contactstudy.profiles.curve import ProfileCurve
 from contactstudy.scans.cover import uncovered
 from contactstudy.scans.surface import SurfaceScan
+
+if TYPE_CHECKING:
+    import trimesh
 
 _STEP = 0.5e-3  # of the facets made for a body that is not scanned [m]
 _SLACK = 2.0  # of the zone along the rail, for facets made for a body that is not scanned

@@ -1,14 +1,18 @@
 """Triangulated surfaces from STL, PLY and OBJ files, in metres."""
 
+from __future__ import annotations
+
 from pathlib import Path
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
-import trimesh
 
 from contactstudy.arrays import Array, IntArray
 from contactstudy.exceptions import InputError
 from contactstudy.scans.faults import faults
+
+if TYPE_CHECKING:
+    import trimesh
 
 UNITS = {"mm": 1e-3, "m": 1.0, "cm": 1e-2, "um": 1e-6, "in": 25.4e-3}
 """Length units of a file, in m."""
@@ -68,6 +72,8 @@ def read_mesh(path: str | Path, unit: str, body: Body) -> trimesh.Trimesh:
 
 def _triangles(file: Path) -> tuple[Array, IntArray]:
     """Vertices in the file's unit and triangles."""
+    import trimesh
+
     if file.suffix.lower() not in SUFFIXES:
         raise InputError(f"{file}: not a scan by its name; allowed: {', '.join(SUFFIXES)}")
     if not file.is_file():
@@ -88,6 +94,8 @@ def _triangles(file: Path) -> tuple[Array, IntArray]:
 
 def _joined(vertices: Array, faces: IntArray) -> trimesh.Trimesh:
     """Mesh whose equal vertices are one: STL repeats them in every triangle."""
+    import trimesh
+
     points, number = np.unique(vertices + 0.0, axis=0, return_inverse=True)
     return trimesh.Trimesh(points, number.ravel()[faces], process=False)
 

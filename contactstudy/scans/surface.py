@@ -1,10 +1,12 @@
 """A scanned rail head or wheel tread: its facets, and the smooth shape fitted to them."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
-import trimesh
 
 from contactstudy.exceptions import InputError
 from contactstudy.profiles.curve import ProfileCurve
@@ -13,6 +15,9 @@ from contactstudy.profiles.scanned_rail import RAIL_DEPTH, fit_rail_head
 from contactstudy.profiles.scanned_wheel import WHEEL_DEPTH, fit_wheel_tread
 from contactstudy.scans.faults import triangles
 from contactstudy.scans.reading import Body, read_mesh
+
+if TYPE_CHECKING:
+    import trimesh
 
 _NEAR = 10.0  # residual limits within which a facet belongs to the fitted surface
 
@@ -87,6 +92,8 @@ def scanned_surface(
         As `read_mesh`; if the surface is not prismatic (rail) or of revolution (wheel) within
         the limit; if facets of it face into the body.
     """
+    import trimesh
+
     name = Path(path).name
     mesh = read_mesh(path, unit, body)
     fit_body = fit_rail_head if body == "rail" else fit_wheel_tread

@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import Any, Generic, TypeVar
 
 import numpy as np
-import platformdirs
 
 from contactstudy.exceptions import InputError
 from contactstudy.store import ARRAYS, Store, StoreWarning, store_key
@@ -48,6 +47,8 @@ class Body(Generic[Made]):
 
 def cache_directory() -> Path:
     """Where condensed bodies are kept: ``CONTACTSTUDY_CACHE`` or the user's cache folder."""
+    import platformdirs
+
     named = os.environ.get("CONTACTSTUDY_CACHE")
     return Path(named) if named else Path(platformdirs.user_cache_dir("contactstudy"))
 

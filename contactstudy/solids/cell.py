@@ -5,7 +5,6 @@ from itertools import pairwise
 
 import numpy as np
 import scipy.sparse as sp
-from scipy.sparse.linalg import LinearOperator, eigsh
 
 from contactstudy.arrays import Array
 from contactstudy.profiles.rail import rail_profile
@@ -174,6 +173,8 @@ def _fixed_interface_modes(
     piece: ExtrudedSlice, ns: int, factor: BlockTridiagonal, count: int
 ) -> list[Array]:
     """Lowest vibration modes of a cell with both interfaces held (Craig and Bampton 1968)."""
+    from scipy.sparse.linalg import LinearOperator, eigsh
+
     n = len(piece.free)
     if count == 0:
         return [np.zeros((n, 0))] * (ns - 1)

@@ -4,7 +4,6 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
-from scipy.sparse.linalg import ArpackError, eigsh
 
 from contactstudy.arrays import Array, BoolArray
 from contactstudy.exceptions import NumericalError
@@ -106,6 +105,8 @@ def ring_families(
 
 def _lowest(K: sp.csc_array, M: sp.csc_array, limit: float) -> tuple[Array, Array]:
     """Eigenpairs of K v = w^2 M v with w^2 <= limit."""
+    from scipy.sparse.linalg import ArpackError, eigsh
+
     n, count = K.shape[0], 8
     while True:
         count = min(count, n - 2)

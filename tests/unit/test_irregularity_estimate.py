@@ -80,3 +80,15 @@ def test_wrong_arguments():
         third_octave_levels(_noise(), 0.1, reference=0.0)
     with pytest.raises(InputError, match="lowest <= highest"):
         third_octave_levels(_noise(), 0.1, band=(5.0, 1.0))
+
+
+@pytest.mark.parametrize(("samples", "n"), [(1000, 125), (1001, 124), (64, 64), (999, 333)])
+def test_welchs_estimate_against_scipys(samples, n):
+    values = 3.0 + np.random.default_rng(1).normal(size=samples)
+    mine = spectral_estimate(values, 0.01, 0.01 * n, unit="1/m")
+    frequency, density = welch(
+        values, 100.0, "hann", n, n // 2, detrend="constant", return_onesided=False
+    )
+    half = n // 2 + 1
+    np.testing.assert_allclose(mine.wavenumber, np.abs(frequency[:half]), rtol=1e-12)
+    np.testing.assert_allclose(mine.density, density[:half], rtol=1e-11, atol=1e-14)
