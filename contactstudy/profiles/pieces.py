@@ -51,7 +51,7 @@ class LinePiece:
         return math.dist(self.start, self.end)
 
     @property
-    def mirrored(self) -> "LinePiece":
+    def mirrored(self) -> LinePiece:
         """Mirror image about y = 0, walked towards growing y as well."""
         return LinePiece(_image(self.end), _image(self.start))
 
@@ -94,7 +94,7 @@ class ArcPiece:
         return radius * abs(sweep)
 
     @property
-    def mirrored(self) -> "ArcPiece":
+    def mirrored(self) -> ArcPiece:
         """Mirror image about y = 0, walked towards growing y as well."""
         return ArcPiece(_image(self.centre), _image(self.end), _image(self.start))
 
