@@ -1,1 +1,1 @@
-"""Models for other programs: the static press as a CalculiX input file, and its results read."""
+"""Models for other programs: the static press as a CalculiX input file."""

@@ -15,9 +15,7 @@ from contactstudy.exceptions import InputError
 from contactstudy.profiles.rail import RailProfile
 from contactstudy.profiles.section import SectionProperties, section_properties
 from contactstudy.solids.mapped import along, graded, join, transfinite
-
-_LOWEST = 0.010
-"""m, by which the fine running surface ends above the head's lower corner at least."""
+from contactstudy.solids.section_outline import Grading, Outline, fine_reach
 
 
 @dataclass(frozen=True)
@@ -54,47 +52,6 @@ class SectionMesh:
     def properties(self, poisson_ratio: float) -> SectionProperties:
         """Area, second moments and shear coefficients of the WHOLE section, as meshed."""
         return section_properties(self.nodes, self.quads, poisson_ratio, symmetric=self.symmetric)
-
-
-def _block_corners(profile: RailProfile, round_corner: bool) -> list[tuple[float, float]]:
-    """Where the blocks' corners sit on the right half of the outline, from top to bottom."""
-    z = profile.heights
-    foot_web = [z["head_bottom_axis"], z["foot_top_axis"]]
-    if round_corner:
-        # the head's lower corner, and the middle of its underside: the outline is straight there,
-        # so one element has an angle of 180 degrees
-        levels = [
-            0.5 * (z["side_bottom"] + z["head_corner"]),
-            0.5 * (z["head_corner"] + z["head_web"]),
-        ]
-        half = profile.half_width(np.array(levels))
-        head = list(zip(half.tolist(), levels, strict=True))
-    else:
-        shoulder = float(0.9 * profile.half_width(np.array([z["side_top"]]))[0])
-        level = 0.5 * (z["side_bottom"] + z["head_corner"])
-        head = [
-            (shoulder, float(profile.curve.height(shoulder))),
-            (float(profile.half_width(np.array([level]))[0]), level),
-        ]
-    return [
-        *head,
-        *zip(profile.half_width(np.array(foot_web)).tolist(), foot_web, strict=True),
-        # middle of the rounding of the foot's upper edge: the nearest point to its sharp corner
-        (0.5 * profile.foot_width, z["foot_edge_top"] + 0.003),
-        (profile.bearing_half_width, z["foot_bottom"]),
-    ]
-
-
-def fine_reach(profile: RailProfile, size: float) -> float:
-    """How far from the crown the fine running surface may reach, arc length in m.
-
-    Parameters
-    ----------
-    profile : RailProfile
-    size : float
-        Element size at the running surface in m.
-    """
-    return _Outline.of(profile, round_corner=True).top_length - size - _LOWEST
 
 
 def rail_section_mesh(
@@ -157,12 +114,12 @@ def rail_section_mesh(
             f"contact_centre = {contact_centre} m, contact_half_width = {contact_half_width} m: "
             f"the fine zone must lie within {reach:.4f} m of the crown on both sides"
         )
-    grading = _Grading(size, coarse, growth)
+    grading = Grading(size, coarse, growth)
 
     def half(low: float, high: float) -> SectionMesh:
-        outline = _Outline.of(profile, round_corner=False)
+        outline = Outline.of(profile, round_corner=False)
         if high > outline.top_length - size:
-            outline = _Outline.of(profile, round_corner=True)
+            outline = Outline.of(profile, round_corner=True)
         return _half(outline, grading, low, high)
 
     if symmetric:
@@ -170,59 +127,7 @@ def rail_section_mesh(
     return _whole(half(-high, -low), half(low, high))
 
 
-@dataclass(frozen=True)
-class _Grading:
-    """Element sizes in m: at the running surface and the largest; ratio of neighbours."""
-
-    size: float
-    coarse: float
-    growth: float
-
-    def columns(self, low: float, high: float, length: float) -> tuple[Array, IntArray]:
-        """Arc lengths from the axis to the shoulder, fine from `low` to `high`; which are fine."""
-        h = self.size
-        count = max(2, round((high - low) / h))
-        fine = low + (high - low) / count * np.arange(count + 1)
-        if low <= 0.0 <= high:
-            # a line on the axis, which both halves share
-            fine = h * np.arange(np.ceil(low / h - 0.499), np.floor(high / h + 0.499) + 1)
-        fine = fine[fine >= -1e-9 * h]
-        if not len(fine):
-            # all of the fine zone lies on the other half: go on growing from where it ends
-            first = min(h + (self.growth - 1) * -high, self.coarse)
-            return graded(length, first, self.growth, self.coarse), np.empty(0, dtype=np.int64)
-        before = np.empty(0)
-        if fine[0] > 1e-9 * h:
-            before = fine[0] - graded(fine[0], h * self.growth, self.growth, self.coarse)[:0:-1]
-        after = graded(length - fine[-1], h * self.growth, self.growth, self.coarse)[1:]
-        columns = np.r_[before, fine, fine[-1] + after]
-        return columns, len(before) + np.arange(len(fine))
-
-
-@dataclass(frozen=True)
-class _Outline:
-    """Right half of the outline and where the corners of the blocks lie on it."""
-
-    profile: RailProfile
-    side: Array
-    marks: tuple[int, ...]
-
-    @classmethod
-    def of(cls, profile: RailProfile, round_corner: bool) -> "_Outline":
-        side, marks = profile.half_outline(), []
-        for corner in _block_corners(profile, round_corner):
-            side, mark = _with_point(side, corner)
-            marks.append(mark)
-        return cls(profile, side, tuple(marks))
-
-    @property
-    def top_length(self) -> float:
-        """Arc length from the crown to the end of the head's upper edge in m."""
-        top = self.side[: self.marks[0] + 1]
-        return float(np.sum(np.hypot(*np.diff(top, axis=0).T)))
-
-
-def _half(outline: _Outline, grading: _Grading, low: float, high: float) -> SectionMesh:
+def _half(outline: Outline, grading: Grading, low: float, high: float) -> SectionMesh:
     """Right half, its running surface fine from arc length `low` to `high`."""
     side, coarse = outline.side, grading.coarse
     shoulder, head_corner, web_top, web_bottom, foot_top, foot_bottom = outline.marks
@@ -273,18 +178,6 @@ def _half(outline: _Outline, grading: _Grading, low: float, high: float) -> Sect
 
     nodes, quads, ids = join(foot, web, head)
     return SectionMesh(nodes, quads, ids[2][-1, fine], ids[0][0], True)
-
-
-def _with_point(side: Array, point: tuple[float, float]) -> tuple[Array, int]:
-    """Outline with a point of it among its vertices, and which one that is."""
-    distance = np.hypot(side[:, 0] - point[0], side[:, 1] - point[1])
-    nearest = int(np.argmin(distance))
-    # vertices stand closely on arcs; lines have none between their ends
-    if distance[nearest] < 2e-3:
-        return side, nearest
-    # z falls from vertex to vertex
-    after = int(np.searchsorted(-side[:, 1], -point[1]))
-    return np.insert(side, after, [point], axis=0), after
 
 
 def _whole(left: SectionMesh, right: SectionMesh) -> SectionMesh:

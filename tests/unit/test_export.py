@@ -9,9 +9,7 @@ from scipy.sparse.linalg import splu
 
 from contactstudy import cli
 from contactstudy.exceptions import InputError, NumericalError
-from contactstudy.export import run_calculix as runner
 from contactstudy.export.calculix import calculix_input
-from contactstudy.export.calculix_results import read_press
 from contactstudy.export.press_mesh import FACES, press_mesh
 from contactstudy.profiles import rail_curve
 from contactstudy.solids.hexahedron import hex_stiffness
@@ -22,6 +20,8 @@ from contactstudy.solids.wheel_section import WheelDimensions
 from contactstudy.track.model import Track
 from contactstudy.track.solid import solid_rail
 from contactstudy.track.unreduced import UnreducedTrack
+from contactstudy.verification.cases import run_calculix as runner
+from contactstudy.verification.cases.calculix_results import read_press
 
 CELL = CellRecipe(size=0.008, length=0.128, coarse=0.012, contact_half_width=0.018)
 # hardly a web: the brute force has every node of the ring

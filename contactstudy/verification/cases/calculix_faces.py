@@ -7,7 +7,6 @@ import numpy as np
 from contactstudy.arrays import Array
 from contactstudy.contact.groups import contact_area
 from contactstudy.export.press_mesh import PressMesh
-from contactstudy.export.run_calculix import CalculixRun
 from contactstudy.geometry.placement import Geometry
 from contactstudy.geometry.tread import wheel_points
 from contactstudy.solids.wheel import WheelFlexibility
@@ -15,6 +14,7 @@ from contactstudy.solvers.surface import geometry_press
 from contactstudy.track.solid import SolidTrack
 from contactstudy.track.unreduced import UnreducedTrack
 from contactstudy.verification.cases.flat_press import FacetPress
+from contactstudy.verification.cases.run_calculix import CalculixRun
 from contactstudy.verification.check import Check, ResultTable
 
 

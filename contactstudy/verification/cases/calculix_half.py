@@ -6,7 +6,6 @@ import numpy as np
 
 from contactstudy.export.calculix import calculix_input
 from contactstudy.export.press_mesh import PressMesh, press_mesh
-from contactstudy.export.run_calculix import CalculixRun, run_calculix
 from contactstudy.halfspace.hertz import HertzContact, contact_modulus, hertz_contact
 from contactstudy.profiles.rail import rail_profile
 from contactstudy.solids.bodies import rail_body, wheel_body
@@ -25,6 +24,7 @@ from contactstudy.verification.cases.calculix_faces import (
     smooth_press,
 )
 from contactstudy.verification.cases.flat_press import flat_press
+from contactstudy.verification.cases.run_calculix import CalculixRun, run_calculix
 from contactstudy.verification.check import CaseResult, Check
 
 LOAD = float(wheel_column().static_loads[0])

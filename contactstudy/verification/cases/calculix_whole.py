@@ -6,7 +6,6 @@ import numpy as np
 
 from contactstudy.export.calculix import calculix_input
 from contactstudy.export.press_mesh import press_mesh
-from contactstudy.export.run_calculix import run_calculix
 from contactstudy.solids.bodies import wheel_body
 from contactstudy.solids.cache import cached
 from contactstudy.solids.wheel import WheelFlexibility
@@ -25,6 +24,7 @@ from contactstudy.verification.cases.calculix_faces import (
     smooth_press,
 )
 from contactstudy.verification.cases.flat_press import FacetPress, flat_press
+from contactstudy.verification.cases.run_calculix import run_calculix
 from contactstudy.verification.check import CaseResult, Check, ResultTable
 
 STUDY = "s1002_inclined"

@@ -19,7 +19,7 @@ from contactstudy.profiles.rail import rail_profile
 from contactstudy.profiles.wheel_body import wheel_dimensions
 from contactstudy.scans import Meeting
 from contactstudy.solids.rim import tread_reach
-from contactstudy.solids.section_mesh import fine_reach
+from contactstudy.solids.section_outline import fine_reach
 from contactstudy.solids.wheel_section import fine_arcs
 from contactstudy.study.kinds.passage.schema import Study
 from contactstudy.study.kinds.passage.vehicles import vehicle

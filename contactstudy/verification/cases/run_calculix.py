@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from contactstudy.exceptions import InputError, NumericalError
-from contactstudy.export.calculix_results import CalculixPress, read_press
+from contactstudy.verification.cases.calculix_results import CalculixPress, read_press
 
 PROGRAM = "ccx"
 
