@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 from threadpoolctl import threadpool_limits
 
+from contactstudy.contact.surface_contact import SurfaceContact
 from contactstudy.export.calculix import calculix_input
 from contactstudy.export.press_mesh import press_mesh
 from contactstudy.export.run_calculix import run_calculix
@@ -22,7 +23,7 @@ from contactstudy.solids.cell import condense
 from contactstudy.solids.recipe import CellRecipe
 from contactstudy.solids.wheel import elastic_wheel
 from contactstudy.solids.wheel_recipe import WheelRecipe
-from contactstudy.solvers.surface import geometry_press
+from contactstudy.solvers.at_rest import geometry_press
 from contactstudy.track.model import Track
 from contactstudy.track.solid import SolidTrack, solid_rail
 from contactstudy.vehicle import wheel_column
@@ -48,7 +49,9 @@ def test_static_press(benchmark):
     def ours():
         # a new track each time: its assembly and factor belong to the press
         track = SolidTrack(described, cell)
-        return geometry_press(track, wheel, np.array([LOAD]), PENALTY, 0.5 * LENGTH)
+        return geometry_press(
+            track, SurfaceContact(wheel, penalty=PENALTY), np.array([LOAD]), x=0.5 * LENGTH
+        )
 
     curve = ours()  # compiled kernels are loaded
     times = []

@@ -17,6 +17,7 @@ import pytest
 from scipy.linalg import cho_solve_banded, cholesky_banded
 
 from contactstudy.contact.laws import HertzSpring, LinearSpring
+from contactstudy.contact.surface_contact import SurfaceContact
 from contactstudy.irregularity import paper_spectrum, sample_profile
 from contactstudy.solids.bodies import rail_body, wheel_body
 from contactstudy.solids.cache import cached
@@ -93,7 +94,11 @@ def report(benchmark, run, one_solution):
 def test_point_step(benchmark, law, local):
     def run():
         return point_contact(
-            Track(), wheel_column(), profile(), JOURNEY, law=law, local_compliance=local
+            BeamTrack(Track(), element_compliance=local),
+            wheel_column(),
+            profile(),
+            JOURNEY,
+            law=law,
         )
 
     report(benchmark, run, baseline(BeamTrack(Track()).stiffness))
@@ -101,7 +106,9 @@ def test_point_step(benchmark, law, local):
 
 def test_surface_step(benchmark):
     def run():
-        return surface_contact(solid_track(), wheel(), wheel_column(), profile(), JOURNEY)
+        return surface_contact(
+            solid_track(), SurfaceContact(wheel()), wheel_column(), profile(), JOURNEY
+        )
 
     report(benchmark, run, baseline(solid_track().stiffness))
 
@@ -113,7 +120,11 @@ def test_surface_step_of_a_whole_section(benchmark):
 
     def run():
         return surface_contact(
-            track, made, wheel_column(), profile(), JOURNEY, geometry=placed, penalty=1e16
+            track,
+            SurfaceContact(made, geometry=placed, penalty=1e16),
+            wheel_column(),
+            profile(),
+            JOURNEY,
         )
 
     report(benchmark, run, baseline(track.stiffness))

@@ -18,73 +18,110 @@ the others just not touching. The nodes have no such surplus, and suit the augme
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Protocol, TypeVar
 
 import numpy as np
 
 from contactstudy.arrays import Array, BoolArray
 from contactstudy.contact.complementarity import PatchForces, PressedForces, contact_forces, press
-from contactstudy.exceptions import InputError, NumericalError
+from contactstudy.exceptions import NumericalError
+from contactstudy.validation import positive, raise_if
 
-Mask = BoolArray
+PENALTY = 1e16
+"""Default penalty in Pa/m."""
+
 Solution = TypeVar("Solution", bound=PatchForces)
+
+
+@dataclass(frozen=True, eq=False)
+class PointProblem:
+    """Contact problem of n points.
+
+    Attributes
+    ----------
+    M : ndarray (n, n)
+        Flexibility with the compliance of the penalty, ``W + diag(compliance)``, in m/N.
+    gap : ndarray (n,)
+        Free gaps in m.
+    compliance : ndarray (n,)
+        Of the penalty in m/N.
+    start : ndarray (n,)
+        Forces in N from which to start.
+    guess : ndarray of bool (n,) or None
+        Points expected in contact.
+    """
+
+    M: Array
+    gap: Array
+    compliance: Array
+    start: Array
+    guess: BoolArray | None = None
 
 
 class Enforcement(Protocol):
     """A way to solve the contact problem of n points.
 
-    Both methods take ``M = W + diag(compliance)`` (n, n) in m/N, the free gaps (n,) in m, the
-    compliance of the penalty (n,) in m/N, forces (n,) in N from which to start, and the points
-    expected in contact (n,); `press` as `contact.surface.press` also the normal's components
-    along the approach, the resultant in N and a first approach in m. They return the solution
-    and how far the bodies overlap at each point, (n,) in m, never negative.
+    Both methods return the solution and how far the bodies overlap at each point, (n,) in m,
+    never negative.
     """
 
-    def forces(
-        self, M: Array, gap: Array, compliance: Array, start: Array, guess: Mask | None
-    ) -> tuple[PatchForces, Array]:
+    @property
+    def accuracy(self) -> float:
+        """Relative accuracy of the forces."""
+
+    def compliance(self, area: Array) -> Array:
+        """Compliance 1/(eps A) of the penalty at points of these areas, (n,) in m/N."""
+
+    def forces(self, problem: PointProblem) -> tuple[PatchForces, Array]:
         """Forces for given free gaps."""
 
     def press(
-        self,
-        M: Array,
-        gap: Array,
-        compliance: Array,
-        start: Array,
-        guess: Mask | None,
-        normal: Array,
-        resultant: float,
-        approach: float | None,
+        self, problem: PointProblem, normal: Array, resultant: float, approach: float | None
     ) -> tuple[PressedForces, Array]:
-        """Forces and approach for a given resultant."""
+        """Forces and approach for a given resultant, see `contact.complementarity.press`."""
 
 
 @dataclass(frozen=True)
 class Penalty:
-    """Pressure = penalty x overlap; needs no start."""
+    """Pressure = penalty x overlap; needs no start.
 
-    def forces(
-        self, M: Array, gap: Array, compliance: Array, start: Array, guess: Mask | None
-    ) -> tuple[PatchForces, Array]:
+    Parameters
+    ----------
+    penalty : float
+        eps in Pa/m.
+
+    Raises
+    ------
+    InputError
+        If the penalty is not positive.
+    """
+
+    penalty: float = PENALTY
+
+    def __post_init__(self) -> None:
+        raise_if(positive("contact penalty", self.penalty, "Pa/m"))
+
+    @property
+    def accuracy(self) -> float:
+        """Rounding."""
+        return 1e-11
+
+    def compliance(self, area: Array) -> Array:
         """See `Enforcement`."""
-        solution = contact_forces(M, gap, guess)
-        return solution, compliance * solution.forces
+        return 1.0 / (self.penalty * area)
+
+    def forces(self, problem: PointProblem) -> tuple[PatchForces, Array]:
+        """See `Enforcement`."""
+        solution = contact_forces(problem.M, problem.gap, problem.guess)
+        return solution, problem.compliance * solution.forces
 
     def press(
-        self,
-        M: Array,
-        gap: Array,
-        compliance: Array,
-        start: Array,
-        guess: Mask | None,
-        normal: Array,
-        resultant: float,
-        approach: float | None,
+        self, problem: PointProblem, normal: Array, resultant: float, approach: float | None
     ) -> tuple[PressedForces, Array]:
         """See `Enforcement`."""
-        solution = press(M, gap, normal, resultant, guess, approach)
-        return solution, compliance * solution.forces
+        solution = press(problem.M, problem.gap, normal, resultant, problem.guess, approach)
+        return solution, problem.compliance * solution.forces
 
 
 @dataclass(frozen=True)
@@ -96,67 +133,66 @@ class AugmentedLagrangian:
     tolerance : float
         In m. No point in contact is further than this from touching, whether by overlap or, as
         a multiplier may be too large as well, by a gap.
+    penalty : float
+        First penalty in Pa/m.
     max_updates : int
         Bound on the number of updates of the multipliers.
 
     Raises
     ------
     InputError
-        If the tolerance is not positive.
+        If tolerance or penalty are not positive.
     """
 
     tolerance: float = 1e-9
+    penalty: float = PENALTY
     max_updates: int = 50
 
     def __post_init__(self) -> None:
-        if not self.tolerance > 0:
-            raise InputError(f"penetration tolerance = {self.tolerance} m: must be positive")
+        raise_if(
+            positive("tolerance of the penetration", self.tolerance, "m")
+            + positive("contact penalty", self.penalty, "Pa/m")
+        )
 
-    def forces(
-        self, M: Array, gap: Array, compliance: Array, start: Array, guess: Mask | None
-    ) -> tuple[PatchForces, Array]:
+    @property
+    def accuracy(self) -> float:
+        """Forces that meet a tolerance of the penetration are known no better than so."""
+        return 1e-8
+
+    def compliance(self, area: Array) -> Array:
+        """See `Enforcement`."""
+        return 1.0 / (self.penalty * area)
+
+    def forces(self, problem: PointProblem) -> tuple[PatchForces, Array]:
         """See `Enforcement`; NumericalError when the tolerance is not reached."""
 
-        def solve(M: Array, shift: Array, last: PatchForces | None) -> PatchForces:
-            return contact_forces(M, gap - shift, guess if last is None else last.active)
+        def solve(shifted: PointProblem, last: PatchForces | None) -> PatchForces:
+            guess = problem.guess if last is None else last.active
+            return contact_forces(shifted.M, shifted.gap, guess)
 
-        return self._update(solve, M, compliance, start)
+        return self._update(solve, problem)
 
     def press(
-        self,
-        M: Array,
-        gap: Array,
-        compliance: Array,
-        start: Array,
-        guess: Mask | None,
-        normal: Array,
-        resultant: float,
-        approach: float | None,
+        self, problem: PointProblem, normal: Array, resultant: float, approach: float | None
     ) -> tuple[PressedForces, Array]:
         """See `Enforcement`; the stiffness is that with the multipliers held."""
 
-        def solve(M: Array, shift: Array, last: PressedForces | None) -> PressedForces:
-            return press(
-                M,
-                gap - shift,
-                normal,
-                resultant,
-                guess if last is None else last.active,
-                approach if last is None else last.approach,
+        def solve(shifted: PointProblem, last: PressedForces | None) -> PressedForces:
+            guess, first = (
+                (problem.guess, approach) if last is None else (last.active, last.approach)
             )
+            return press(shifted.M, shifted.gap, normal, resultant, guess, first)
 
-        return self._update(solve, M, compliance, start)
+        return self._update(solve, problem)
 
     def _update(
-        self,
-        solve: Callable[[Array, Array, Solution | None], Solution],
-        M: Array,
-        compliance: Array,
-        start: Array,
+        self, solve: Callable[[PointProblem, Solution | None], Solution], problem: PointProblem
     ) -> tuple[Solution, Array]:
-        multipliers, last, before = start, None, np.inf
+        M, compliance, multipliers = problem.M, problem.compliance, problem.start
+        last, before = None, np.inf
         for _ in range(self.max_updates):
-            last = solve(M, compliance * multipliers, last)
+            gap = problem.gap - compliance * multipliers
+            last = solve(replace(problem, M=M, gap=gap), last)
             # -g where in contact; where a force has gone to zero the bodies are apart
             overlap = np.where(last.active, compliance * (last.forces - multipliers), 0.0)
             left = float(np.abs(overlap).max(initial=0.0))
@@ -171,8 +207,3 @@ class AugmentedLagrangian:
             f"still {left:.3e} m from touching (tolerance {self.tolerance:g} m): a higher penalty "
             "takes fewer updates, and pressure at the nodes fewer than at Gauss points"
         )
-
-
-def enforcement(tolerance: float | None) -> Enforcement:
-    """Penalty alone for None, else the augmented Lagrangian with a tolerance in m."""
-    return Penalty() if tolerance is None else AugmentedLagrangian(tolerance)

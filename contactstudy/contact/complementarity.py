@@ -21,6 +21,9 @@ from contactstudy.exceptions import InputError, NumericalError
 
 Mask = BoolArray
 
+_APPROACHES = 60
+"""Bound on the approaches tried for a resultant."""
+
 
 @dataclass(frozen=True)
 class PatchForces:
@@ -178,8 +181,6 @@ def press(
     resultant: float,
     guess: Mask | None = None,
     approach: float | None = None,
-    *,
-    max_iterations: int = 60,
 ) -> PressedForces:
     """Contact forces and rigid approach for a prescribed resultant.
 
@@ -222,7 +223,7 @@ def press(
         approach = first_touch + resultant * float(M[nearest, nearest]) / normal[nearest] ** 2
     active, total, force = guess, 0, 0.0
     low, high = first_touch, np.inf
-    for _ in range(max_iterations):
+    for _ in range(_APPROACHES):
         solution = contact_forces(M, gap - approach * normal, active)
         active, total = solution.active, total + solution.iterations
         force = float(normal @ solution.forces)

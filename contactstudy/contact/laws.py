@@ -7,6 +7,7 @@ Vertical contact is unilateral: lambda >= 0 always; lateral contact (`bilateral`
 
 import math
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
@@ -35,10 +36,17 @@ class LinearSpring:
     def __post_init__(self) -> None:
         raise_if(positive("contact stiffness k_r", self.stiffness, "N/m"))
 
+    @property
+    def softness(self) -> float:
+        """Least compliance of the law [m/N]."""
+        return 1.0 / self.stiffness
+
 
 @dataclass(frozen=True)
 class RigidContact:
     """No contact deformation: g = 0 while pressed."""
+
+    softness: ClassVar[float] = 0.0
 
 
 @dataclass(frozen=True)
@@ -52,6 +60,7 @@ class HertzSpring:
     """
 
     stiffness: float
+    softness: ClassVar[float] = math.inf
 
     def __post_init__(self) -> None:
         raise_if(positive("Hertz stiffness k_H", self.stiffness, "N/m^1.5"))
@@ -60,6 +69,8 @@ class HertzSpring:
 @dataclass(frozen=True)
 class MovingForce:
     """The static load itself, whatever wheel and rail do."""
+
+    softness: ClassVar[float] = math.inf
 
 
 ContactLaw = LinearSpring | RigidContact | HertzSpring | MovingForce

@@ -10,71 +10,100 @@ positive r raises the running surface. Literal eq. (6), f_r = (N, -1) k_r r, pus
 and the wheel down for positive r, so its positive r is a dip: r here is minus the paper's.
 """
 
+from dataclasses import dataclass
+
 import numpy as np
 
+from contactstudy.arrays import Array, IntArray
 from contactstudy.contact.laws import ContactLaw, contact_forces
 from contactstudy.dynamics.banded import Factor
 from contactstudy.dynamics.rows import dense_rows, row_products, row_values
 from contactstudy.dynamics.stepper import ContactStep
 
 
+@dataclass(frozen=True)
+class PointGaps:
+    """Gap of every wheel at every state, g = B u + c lambda - r.
+
+    Parameters
+    ----------
+    dofs, weights : ndarray (n_times, nw, k)
+        Rows B.
+    compliance : ndarray (n_times, nw)
+        c [m/N]. Two wheels within one element do not share it: each feels its own.
+    irregularity : ndarray (n_times, nw)
+        r [m].
+    """
+
+    dofs: IntArray
+    weights: Array
+    compliance: Array
+    irregularity: Array
+
+    @staticmethod
+    def rows(
+        wheel_dofs: IntArray, rail_dofs: IntArray, rail_weights: Array
+    ) -> tuple[IntArray, Array]:
+        """B from the rail's rows (n_times, nw, k - 1): +1 on the wheel, minus the rail."""
+        shape = (*rail_dofs.shape[:2], 1)
+        wheel = np.broadcast_to(wheel_dofs[None, :, None], shape)
+        dofs = np.concatenate((wheel, rail_dofs), axis=2)
+        return dofs, np.concatenate((np.ones(shape), -rail_weights), axis=2)
+
+
+@dataclass(frozen=True)
 class PointCoupling:
-    """One point under every wheel, with all positions known in advance.
+    """One point under every wheel, with all positions known in advance; it has no memory.
 
     Parameters
     ----------
     law : ContactLaw
-    wheel_dofs : ndarray
-        (nw,) dofs of the system.
-    rail_dofs, rail_weights : ndarray
-        (n_times, nw, k) row of the rail's displacement under each wheel at each state.
-    local_compliance : ndarray
-        (n_times, nw) c [m/N]. Two wheels within one element do not share it: each feels its own.
-    irregularity : ndarray
-        (n_times, nw) r [m].
-    static_loads : ndarray
-        (nw,) [N].
+    gaps : PointGaps
+    static_loads : ndarray (nw,)
+        [N].
     bilateral : bool
         Whether the contact holds in tension (lateral direction).
-
-    Attributes
-    ----------
-    local_compliance : ndarray
-        As given.
     """
 
-    def __init__(
-        self,
-        law: ContactLaw,
-        wheel_dofs: np.ndarray,
-        rail_dofs: np.ndarray,
-        rail_weights: np.ndarray,
-        local_compliance: np.ndarray,
-        irregularity: np.ndarray,
-        static_loads: np.ndarray,
-        bilateral: bool = False,
-    ) -> None:
-        self._law, self._loads, self._bilateral = law, static_loads, bilateral
-        n_times, n_wheels, _ = rail_dofs.shape
-        wheel = np.broadcast_to(wheel_dofs[None, :, None], (n_times, n_wheels, 1))
-        self._dofs = np.concatenate((wheel, rail_dofs), axis=2)
-        self._weights = np.concatenate((np.ones((n_times, n_wheels, 1)), -rail_weights), axis=2)
-        self.local_compliance, self._irregularity = local_compliance, irregularity
+    law: ContactLaw
+    gaps: PointGaps
+    static_loads: Array
+    bilateral: bool = False
 
-    def attach(self, factor: Factor, scale: float) -> None:
-        """Take the factor of the system and the share of the new force in a step."""
-        self._factor, self._scale = factor, scale
+    @property
+    def accuracy(self) -> float:
+        """Relative accuracy of the forces: rounding."""
+        return 1e-11
 
-    def __call__(self, step: int, u_free: np.ndarray) -> ContactStep:
+    def start(self) -> None:
+        """No state."""
+
+    def attached(self, factor: Factor, scale: float) -> "AttachedPoint":
+        """Join to a system."""
+        return AttachedPoint(self, factor, scale)
+
+
+@dataclass(frozen=True)
+class AttachedPoint:
+    """A `PointCoupling` on the system with the compliance scale * S^-1."""
+
+    coupling: PointCoupling
+    factor: Factor
+    scale: float
+
+    def __call__(self, step: int, u_free: Array, state: None) -> ContactStep:
         """Forces at the end of a step; every row adds up, two wheels in one element too."""
-        dofs, weights = self._dofs[step], self._weights[step]
-        rows = dense_rows(dofs, weights, self._factor.n)  # B
+        coupling, gaps = self.coupling, self.coupling.gaps
+        dofs, weights, local = gaps.dofs[step], gaps.weights[step], gaps.compliance[step]
+        rows = dense_rows(dofs, weights, self.factor.n)  # B
         moved = np.empty_like(rows)  # (1-af) B S^-1
         for i, row in enumerate(rows):
-            np.multiply(self._scale, self._factor.solve(row), out=moved[i])
+            np.multiply(self.scale, self.factor.solve(row), out=moved[i])
         # W_ij = (1-af) B_i S^-1 B_j^T, and the loaded element's own share on the diagonal
         compliance = row_products(dofs, weights, moved)
-        compliance.flat[:: len(dofs) + 1] += self.local_compliance[step]
-        free_gap = row_values(dofs, weights, u_free) - self._irregularity[step]
-        force = contact_forces(self._law, compliance, free_gap, self._loads, self._bilateral)
-        return ContactStep(force @ rows, force @ moved, {"contact_force": force})
+        compliance.flat[:: len(dofs) + 1] += local
+        free_gap = row_values(dofs, weights, u_free) - gaps.irregularity[step]
+        loads, bilateral = coupling.static_loads, coupling.bilateral
+        force = contact_forces(coupling.law, compliance, free_gap, loads, bilateral)
+        record = {"contact_force": force, "rail_residual": -local * force}
+        return ContactStep(force @ rows, force @ moved, record)

@@ -5,10 +5,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from contactstudy.arrays import Array
-from contactstudy.contact.augmented import enforcement
+from contactstudy.contact.augmented import Enforcement, Penalty, PointProblem
 from contactstudy.contact.complementarity import PressedForces
 from contactstudy.exceptions import InputError
 from contactstudy.geometry.points import ContactPoints
+
+DEFAULT_LAW = Penalty()
 
 
 @dataclass(frozen=True)
@@ -76,20 +78,12 @@ def tangent_stiffness(curve: PressCurve, load: float) -> float:
     return float(1.0 / (2 / 3 * c1 * load ** (-1 / 3) + c2))
 
 
-def penalty_compliance(points: ContactPoints, penalty: float) -> Array:
-    """Compliance 1/(eps A) of the penalty at each point, (n,) in m/N."""
-    if not penalty > 0:
-        raise InputError(f"contact penalty = {penalty} Pa/m: must be positive")
-    return np.asarray(1.0 / (penalty * points.area))
-
-
 def press_curve(
     points: ContactPoints,
     flexibility: Array,
     loads: Array,
-    penalty: float = 1e16,
+    law: Enforcement = DEFAULT_LAW,
     reference: Array | None = None,
-    tolerance: float | None = None,
 ) -> PressCurve:
     """Press two bodies together with given forces.
 
@@ -102,36 +96,30 @@ def press_curve(
         of both bodies together.
     loads : ndarray (k,)
         Vertical resultants in N, positive.
-    penalty : float
-        In Pa/m.
+    law : Enforcement
+        Penalty or augmented Lagrangian.
     reference : ndarray (n,), optional
         Downward displacement in m/N of a reference on the lower body (the rail's centre line)
         for unit forces at the points: the approach is then measured from there instead of from
         the point to which the flexibility is fixed.
-    tolerance : float, optional
-        Largest overlap in m that an augmented Lagrangian leaves, see `contact.augmented`. None:
-        the penalty alone.
 
     Returns
     -------
     PressCurve
     """
-    compliance, law = penalty_compliance(points, penalty), enforcement(tolerance)
+    compliance = law.compliance(points.area)
     M = flexibility + np.diag(compliance)
     normal = points.normal_z
     approach, stiffness, penetration, solutions, gaps = [], [], [], [], []
     last: PressedForces | None = None
     for load in np.asarray(loads, dtype=float):
-        last, overlap = law.press(
-            M,
-            points.gap,
-            compliance,
-            np.zeros(len(normal)) if last is None else last.forces,
-            None if last is None else last.active,
-            normal,
-            float(load),
-            None if last is None else last.approach,
+        start, guess, first = (
+            (np.zeros(len(normal)), None, None)
+            if last is None
+            else (last.forces, last.active, last.approach)
         )
+        problem = PointProblem(M, points.gap, compliance, start, guess)
+        last, overlap = law.press(problem, normal, float(load), first)
         delta, softness = last.approach, 1.0 / last.stiffness
         if reference is not None:
             # d lam/dF = M_AA^-1 n_A / (n_A^T M_AA^-1 n_A)

@@ -13,13 +13,11 @@ taken off again. Whoever adds the flexibility of the dofs, P H C H^T P^T, adds C
 """
 
 from dataclasses import dataclass
-from typing import Protocol
 
 import numpy as np
 
 from contactstudy.arrays import Array, IntArray
 from contactstudy.geometry.interpolation import SplineLine
-from contactstudy.geometry.points import ContactPoints
 from contactstudy.track.patch import SurfacePatch
 
 PHASES = np.array([-0.375, -0.125, 0.125, 0.375])
@@ -42,13 +40,6 @@ class Blend:
     def product(self, index: IntArray, x: Array) -> Array:
         """Product with a vector that has the values x at an index and zeros elsewhere."""
         return np.asarray((1 - self.t) * (x @ self.A[index]) + self.t * (x @ self.B[index]))
-
-
-class PatchSource(Protocol):
-    """A track that can show its running surface around a position."""
-
-    def patch(self, x: float, half_length: float) -> SurfacePatch:
-        """Running surface around X."""
 
 
 class ResidualFlexibility:
@@ -85,7 +76,7 @@ class ResidualFlexibility:
     def __call__(self, X: float, patch: SurfacePatch) -> Blend:
         """Flexibility (n, n) in m/N with the wheel at X over a patch there.
 
-        With ``patch.local`` the mean holds a share of the dofs' as well, see `beyond`.
+        With ``patch.local`` the mean holds a share of the dofs' as well.
         """
         if self._period is None:
             exact = self._at(patch, patch.residual, X)
@@ -112,21 +103,8 @@ class ResidualFlexibility:
         half = _rows(along, self._across, F)
         return _rows(along, self._across, np.ascontiguousarray(half.T))
 
-    def beyond(self, C: Array, patch: SurfacePatch) -> Array:
-        """Flexibility C (nd, nd) of a patch's dofs less what is in the mean already."""
-        return C if self._period is None or patch.local is None else C - patch.local
-
 
 def _rows(along: Array, across: Array, F: Array) -> Array:
     """``kron(along, across) @ F`` without the Kronecker product."""
     grid = np.tensordot(along, F.reshape(along.shape[1], across.shape[1], -1), axes=1)
     return np.asarray((across @ grid).reshape(-1, F.shape[1]))
-
-
-def patch_splines(patch: SurfacePatch, points: ContactPoints) -> tuple[SplineLine, Array]:
-    """Interpolation along the nodes of a patch, from its first, and that across at the points.
-
-    The nodes stand at equal distances, so one spline serves all positions of the patch.
-    """
-    across = SplineLine(patch.arc, mirrored=points.symmetric)
-    return SplineLine(patch.x - patch.x[0]), across(points.arc)

@@ -12,310 +12,235 @@ Res is the rail's residual flexibility (`contact.residual`), F_w the wheel's rel
 (without what its modes have of it). G's first column is the normal's vertical component.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from contactstudy.arrays import Array, BoolArray, IntArray
-from contactstudy.contact.augmented import enforcement
+from contactstudy.contact.augmented import Enforcement, PointProblem
+from contactstudy.contact.edge import check_edge
 from contactstudy.contact.groups import patch_record
-from contactstudy.contact.press import penalty_compliance
-from contactstudy.contact.residual import PatchSource, ResidualFlexibility, patch_splines
+from contactstudy.contact.moving_wheel import MovingWheel
+from contactstudy.contact.nearby import NearbyColumns
+from contactstudy.contact.rail_surface import RailSurface, RailUnderWheel
 from contactstudy.dynamics.banded import Factor
 from contactstudy.dynamics.stepper import ContactStep
 from contactstudy.exceptions import NumericalError
-from contactstudy.geometry.interpolation import SplineLine
-from contactstudy.geometry.points import ContactPoints
 from contactstudy.geometry.search import CandidateList
+from contactstudy.track.meshed import MeshedTrack
+from contactstudy.track.patch import SectionResponse
 
 NEAR = 0.3e-6
 """Points whose gap was below this [m] a step before enter the dense problem from the start."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class PatchState:
-    """Contact at the end of the last step, at all points.
+    """Contact at the end of a step, at all points.
 
     Attributes
     ----------
     forces : ndarray (n,)
         Normal forces in N.
-    surface_load : ndarray (nodes,)
-        Nodal forces on the rail's surface patch, in N, positive into the rail.
     gap : ndarray (n,)
         Gaps in m; minus the penetration where there is a force.
+    active : ndarray of bool (n,)
+        Points in contact.
+    overlap : ndarray (n,)
+        Penetration in m that the enforcement leaves.
+    surface_load : ndarray (nodes,)
+        Nodal forces on the rail's surface patch, in N, positive into the rail.
     """
 
     forces: Array
-    surface_load: Array
     gap: Array
+    active: BoolArray
+    overlap: Array
+    surface_load: Array
 
 
+@dataclass(frozen=True, eq=False)
+class Path:
+    """Where the wheel is at every state.
+
+    Attributes
+    ----------
+    positions : ndarray (n_times,)
+        X of the wheel in m.
+    irregularity : ndarray (n_times, npx)
+        r at X + x of the lines of points in m.
+    """
+
+    positions: Array
+    irregularity: Array
+
+
+@dataclass(frozen=True, eq=False)
 class SurfaceCoupling:
     """Pressure on the points of one wheel.
 
     Parameters
     ----------
-    track : PatchSource
+    track : MeshedTrack
         Its dofs are the first ones of the system.
-    points : ContactPoints
-        Of the wheel.
-    wheel_flexibility : ndarray (nodes, nodes)
-        Of the wheel's tread nodes relative to the hub, in m/N; without the share of the modes.
-    wheel_dof : int
-        Dof of the system that is the wheel's (its hub's) displacement.
-    positions : ndarray (n_times,)
-        X of the wheel at every state in m.
-    irregularity : ndarray (n_times, len(points.x))
-        r at X + points.x in m.
+    wheel : MovingWheel
+    path : Path
     candidates : CandidateList
         Facets that can touch.
-    penalty : float
-        In Pa/m.
-    rail_step : float
-        Distance of the rail's surface nodes along X in m.
-    rail_period : int or None
-        Steps after which the rail's residual flexibility repeats; its ripple with the phase of
-        the mesh is then taken out, see `contact.residual`.
-    tolerance : float or None
-        Largest overlap in m that an augmented Lagrangian leaves, which starts from the forces of
-        the last step; None: the penalty alone.
-    mode_dofs : ndarray of int (m,)
-        Dofs of the system that are the wheel's elastic modes.
-    mode_shapes : ndarray (m, nodes)
-        Their displacement of the tread nodes into the wheel, in m per unit of the dof.
-
-    Attributes
-    ----------
-    points, positions
-        As given.
-    wheel_dofs : ndarray of int (1 + m,)
-        The hub's dof and the modes'.
-    half_length : float
-        Of the patches asked of the track in m.
-    last : PatchState
-        Contact at the end of the last step.
+    enforcement : Enforcement
     """
 
-    def __init__(
-        self,
-        track: PatchSource,
-        points: ContactPoints,
-        wheel_flexibility: Array,
-        wheel_dof: int,
-        positions: Array,
-        irregularity: Array,
-        candidates: CandidateList,
-        penalty: float,
-        rail_step: float,
-        rail_period: int | None = None,
-        tolerance: float | None = None,
-        mode_dofs: Sequence[int] = (),
-        mode_shapes: Array | None = None,
-    ) -> None:
-        self._track, self.points, self._candidates = track, points, candidates
-        self.wheel_dof, self.positions, self._irregularity = wheel_dof, positions, irregularity
-        self._compliance = penalty_compliance(points, penalty)
-        self._law = enforcement(tolerance)
-        n = len(points.gap)
-        tread = points.wheel_rows.matrix(len(wheel_flexibility))
-        self._wheel_W = tread @ wheel_flexibility @ tread.T
-        self._tread, self._tread_area = tread.T, tread.T @ points.area
-        self.wheel_dofs = np.array([wheel_dof, *mode_dofs], dtype=np.int64)
-        self._wheel_map = points.normal_z[:, None]
-        if mode_shapes is not None:
-            self._wheel_map = np.column_stack([points.normal_z, tread @ mode_shapes.T])
-        # two nodes beyond the outermost point, for the spline
-        self.half_length = float(np.abs(points.x).max()) + 2 * rail_step
-        self._active = np.zeros(n, dtype=bool)
-        self._gap = points.gap
-        self._overlap = np.zeros(n)
-        self._listed: IntArray | None = None
-        self._allowed = np.zeros(n, dtype=bool)
-        self._patch_step = -1
-        self._rail_step, self._rail_period = rail_step, rail_period
-        self._spline: SplineLine | None = None
-        self.last = PatchState(np.zeros(n), np.zeros(0), points.gap)
+    track: MeshedTrack
+    wheel: MovingWheel
+    path: Path
+    candidates: CandidateList
+    enforcement: Enforcement
 
-    def attach(self, factor: Factor, scale: float) -> None:
-        """Take the factor of the system and the share of the new force in a step."""
-        self._factor, self._scale = factor, scale
-        unit = np.zeros((factor.n, len(self.wheel_dofs)))
-        unit[self.wheel_dofs, np.arange(len(self.wheel_dofs))] = 1.0
+    @cached_property
+    def rail(self) -> RailSurface:
+        """The track's running surface at the wheel's points."""
+        return RailSurface(self.track, self.wheel.points)
+
+    @property
+    def accuracy(self) -> float:
+        """Relative accuracy of the forces."""
+        return self.enforcement.accuracy
+
+    def start(self) -> PatchState:
+        """Nothing touches: the undeformed bodies at zero approach."""
+        gap = self.wheel.points.gap
+        none = np.zeros(len(gap))
+        return PatchState(none, gap, np.zeros(len(gap), dtype=bool), none, np.zeros(0))
+
+    def section(self, x: float) -> SectionResponse:
+        """Displacement of the rail's section near X [m]."""
+        return self.track.section(x, self.rail.half_length)
+
+    def attached(self, factor: Factor, scale: float) -> "AttachedSurface":
+        """Join to a system."""
+        return AttachedSurface(self, factor, scale)
+
+
+class AttachedSurface:
+    """A `SurfaceCoupling` on the system with the compliance scale * S^-1.
+
+    Between calls it keeps what repeats, and no state of the contact: the columns of S^-1 near the
+    wheel, and the points on the facets listed last.
+    """
+
+    def __init__(self, coupling: SurfaceCoupling, factor: Factor, scale: float) -> None:
+        self._coupling, self._scale = coupling, scale
+        self._near = NearbyColumns(factor)
+        wheel = coupling.wheel
+        unit = np.zeros((factor.n, len(wheel.dofs)))
+        unit[wheel.dofs, np.arange(len(wheel.dofs))] = 1.0
         columns = factor.solve(unit)
         self._vehicle = np.flatnonzero(columns.any(axis=1))
         self._vehicle_response = scale * columns[self._vehicle]
-        compliance = columns[self.wheel_dofs]
-        moving = self._wheel_map @ (0.5 * scale * (compliance + compliance.T)) @ self._wheel_map.T
+        compliance = columns[wheel.dofs]
+        moving = wheel.map @ (0.5 * scale * (compliance + compliance.T)) @ wheel.map.T
         # the whole wheel: its inertia and modes, and its flexibility
-        self._body_W = self._wheel_W + moving
-        self._columns: dict[int, Array] = {}
-        self._compliance_key: int | None = None
-        self._patch_step = -1
+        self._wheel_W = wheel.flexibility + moving
+        self._compliance = coupling.enforcement.compliance(wheel.points.area)
+        self._listed: tuple[IntArray, BoolArray] | None = None
 
-    def __call__(self, step: int, u_free: Array) -> ContactStep:
+    def __call__(self, step: int, u_free: Array, state: PatchState) -> ContactStep:
         """Forces at the end of a step."""
-        points, normal = self.points, self.points.normal_z
-        self._move_to(step)
-        patch = self._patch
-        roughness = np.repeat(self._irregularity[step], len(points.y))
+        coupling, wheel, near = self._coupling, self._coupling.wheel, self._near
+        points, normal = wheel.points, wheel.points.normal_z
+        under = coupling.rail.under(float(coupling.path.positions[step]))
+        patch = under.patch
+        near.move_to(patch)
+        roughness = np.repeat(coupling.path.irregularity[step], len(points.y))
         free = (
             points.gap
-            + self._wheel_map @ u_free[self.wheel_dofs]
+            + wheel.map @ u_free[wheel.dofs]
             - roughness * normal
-            - self._interpolated(patch.map @ u_free[patch.dofs])
+            - under.at_points(patch.map @ u_free[patch.dofs])
         )
-        allowed = self._candidate_points(float(((points.gap - free) / normal).max()))
-        forces, surface_load = self._solve(step, free, self._gap < NEAR, allowed)
+        allowed = self._candidates(float(((points.gap - free) / normal).max()))
+        new = self._solve(step, under, free, state, allowed)
         load = np.zeros(len(u_free))
         # a dof may be named twice, where an end of the track is held
-        modal = patch.map.T @ surface_load
+        modal = patch.map.T @ new.surface_load
         np.subtract.at(load, patch.dofs, modal)
-        total = float(normal @ forces)
-        on_wheel = forces @ self._wheel_map
-        load[self.wheel_dofs] += on_wheel
+        on_wheel = new.forces @ wheel.map
+        load[wheel.dofs] += on_wheel
         # scale S^-1 load from the columns at hand, which is cheaper than another solution
         increment = np.zeros(len(u_free))
-        increment[self._reach] = -self._scale * (modal @ self._response)
+        increment[near.reach] = -self._scale * (modal @ near.response)
         increment[self._vehicle] += self._vehicle_response @ on_wheel
-        self.last = PatchState(forces, surface_load, self._gap)
         record: dict[str, Array | float] = {
-            "contact_force": np.array([total]),
-            "peak_pressure": float((self._tread @ forces / self._tread_area).max()),
-            "penetration": float(self._overlap.max()),
-            **patch_record(points, self._gap, forces),
-            # what the reduced track leaves out of the centre line's deflection
-            "centre_residual": -float(patch.centre_residual[0] @ surface_load),
+            "contact_force": np.array([float(normal @ new.forces)]),
+            "peak_pressure": wheel.peak_pressure(new.forces),
+            "penetration": float(new.overlap.max()),
+            **patch_record(points, new.gap, new.forces),
+            **patch.centre_motion(u_free, increment, new.surface_load),
         }
-        if len(patch.centre_map) == 3:
-            at = patch.centre_dofs
-            motion = patch.centre_map[1:] @ (u_free[at] + increment[at])
-            motion -= patch.centre_residual[1:] @ surface_load
-            record["rail_lateral"], record["rail_roll"] = float(motion[0]), float(motion[1])
-        return ContactStep(load, increment, record)
-
-    def _move_to(self, step: int) -> None:
-        """Patch and interpolation at a step."""
-        if step == self._patch_step:
-            return
-        X = float(self.positions[step])
-        patch = self._track.patch(X, self.half_length)
-        if self._spline is None:
-            self._spline, self._across = patch_splines(patch, self.points)
-            self._residual = ResidualFlexibility(
-                self._spline,
-                self._across,
-                self.points.x,
-                self._rail_step,
-                self._rail_period,
-            )
-        self._along = self._spline(X - patch.x[0] + self.points.x)
-        if patch.key != self._compliance_key:
-            self._dof_compliance = self._compliance_of(patch.dofs)
-            self._compliance_key = patch.key
-        self._patch, self._patch_step = patch, step
-        self._residual_W = self._residual(X, patch)
-
-    def _interpolated(self, nodal: Array) -> Array:
-        """Values at the points from values at the rail's surface nodes."""
-        grid = nodal.reshape(self._along.shape[1], -1)
-        return (self._along @ grid @ self._across.T).ravel()
-
-    def _compliance_of(self, dofs: IntArray) -> Array:
-        """S^-1 on the patch's dofs; columns are kept while the wheel passes them."""
-        wanted = sorted(set(dofs.tolist()))
-        missing = [d for d in wanted if d not in self._columns]
-        unit = np.zeros((self._factor.n, len(missing)))
-        unit[missing, np.arange(len(missing))] = 1.0
-        solved = self._factor.solve(unit)
-        self._columns = {d: self._columns[d] for d in wanted if d in self._columns} | {
-            d: np.ascontiguousarray(solved[:, k]) for k, d in enumerate(missing)
-        }
-        columns = np.stack([self._columns[d] for d in dofs.tolist()])
-        # in one time step a load is felt a metre or so away: the rest is below rounding
-        size = np.abs(columns).max(axis=0)
-        felt = np.flatnonzero(size > 1e-18 * size.max())
-        self._reach = slice(int(felt[0]), int(felt[-1]) + 1)
-        self._response = np.ascontiguousarray(columns[:, self._reach])
-        C = columns[:, dofs]
-        return np.asarray(0.5 * (C + C.T))
-
-    def _candidate_points(self, approach: float) -> BoolArray:
-        listed = self._candidates.quads(approach)
-        if listed is not self._listed:
-            self._allowed = self.points.listed(listed)
-            self._listed = listed
-        return self._allowed
+        return ContactStep(load, increment, record, new)
 
     def _solve(
-        self, step: int, free: Array, chosen: BoolArray, allowed: BoolArray
-    ) -> tuple[Array, Array]:
-        """Forces at all points and nodal forces on the rail's surface.
+        self, step: int, under: RailUnderWheel, free: Array, before: PatchState, allowed: BoolArray
+    ) -> PatchState:
+        """Contact for given free gaps (n,).
 
-        The dense problem holds the chosen points only. Its solution is checked at all points;
-        those found overlapping join, so the restriction never changes the result.
+        The dense problem holds the points that were near contact only. Its solution is checked at
+        all points; those found overlapping join, so the restriction never changes the result.
         """
-        n, patch = len(free), self._patch
-        C = self._residual.beyond(self._scale * self._dof_compliance, patch)
-        H = patch.map
-        ny = len(self.points.y)
+        n, H = len(free), under.patch.map
+        C = under.beyond(self._scale * self._near.compliance)
+        chosen = before.gap < NEAR
         for _ in range(20):
             index = np.flatnonzero(chosen)
             forces, active, overlap = np.zeros(n), np.zeros(n, dtype=bool), np.zeros(n)
             nodal = np.zeros(len(H))
             if len(index):
-                P = self._along[index // ny, :, None] * self._across[index % ny, None, :]
-                P = P.reshape(len(index), -1)
+                P = under.rows(index)
                 PH = P @ H
-                M = PH @ C @ PH.T
-                M += self._residual_W.block(index)
-                M += self._body_W[index[:, None], index]
-                M.flat[:: len(index) + 1] += self._compliance[index]
-                solution, overlap[index] = self._law.forces(
-                    M,
+                W = PH @ C @ PH.T
+                W += under.residual.block(index)
+                W += self._wheel_W[index[:, None], index]
+                W.flat[:: len(index) + 1] += self._compliance[index]
+                problem = PointProblem(
+                    W,
                     free[index],
                     self._compliance[index],
-                    self.last.forces[index],
-                    self._active[index],
+                    before.forces[index],
+                    before.active[index],
                 )
+                solution, overlap[index] = self._coupling.enforcement.forces(problem)
                 forces[index], active[index] = solution.forces, solution.active
                 nodal = P.T @ solution.forces
             loaded = np.flatnonzero(forces)
             pressing = forces[loaded]
             gap = (
                 free
-                + pressing @ self._body_W[loaded]
-                + self._residual_W.product(loaded, pressing)
-                + self._interpolated(H @ (C @ (H.T @ nodal)))
+                + pressing @ self._wheel_W[loaded]
+                + under.residual.product(loaded, pressing)
+                + under.at_points(H @ (C @ (H.T @ nodal)))
             )
             missed = ~chosen & (gap < -1e-12)
             if not missed.any():
-                self._check_edge(step, active)
-                self._active, self._gap, self._overlap = active, gap, overlap
-                return forces, nodal
+                check_edge(self._coupling.wheel.points, active, self._where(step))
+                return PatchState(forces, gap, active, overlap, nodal)
             if np.any(missed & ~allowed):
                 raise NumericalError(
-                    f"contact search missed points in contact at step {step}, X = "
-                    f"{self.positions[step]:.4f} m: gap {gap[missed & ~allowed].min():.3e} m "
-                    "outside the candidate facets"
+                    f"contact search missed points in contact at {self._where(step)}: gap "
+                    f"{gap[missed & ~allowed].min():.3e} m outside the candidate facets"
                 )
             chosen = chosen | missed
         raise NumericalError(
-            f"contact: the set of points near contact does not settle at step {step}, X = "
-            f"{self.positions[step]:.4f} m ({len(index)} of {n} points)"
+            f"contact: the set of points near contact does not settle at {self._where(step)} "
+            f"({len(index)} of {n} points)"
         )
 
-    def _check_edge(self, step: int, active: BoolArray) -> None:
-        points, grid = self.points, active.reshape(len(self.points.x), -1)
-        across = grid[:, -1].any() or (not points.symmetric and grid[:, 0].any())
-        along = grid[0].any() or grid[-1].any()
-        if not (along or across):
-            return
-        lines, way = (points.wheel_y, "across") if across else (points.wheel_x, "along")
-        key = "contact_half_width" if across else "contact_half_length"
-        raise NumericalError(
-            f"contact patch reaches the edge of the finely meshed zone {way} the rail at step "
-            f"{step}, X = {self.positions[step]:.4f} m: the wheel's zone, {1e3 * lines[0]:.4g} to "
-            f"{1e3 * lines[-1]:.4g} mm, is too small ({key})"
-        )
+    def _candidates(self, approach: float) -> BoolArray:
+        """Points (n,) on facets that can touch."""
+        facets = self._coupling.candidates.quads(approach)
+        if self._listed is None or self._listed[0] is not facets:
+            self._listed = facets, self._coupling.wheel.points.listed(facets)
+        return self._listed[1]
+
+    def _where(self, step: int) -> str:
+        return f"step {step}, X = {self._coupling.path.positions[step]:.4f} m"

@@ -3,6 +3,7 @@
 import numpy as np
 import scipy.sparse as sp
 
+from contactstudy.arrays import Array, IntArray
 from contactstudy.dynamics.banded import Factor, LinearSystem
 from contactstudy.dynamics.stepper import ContactStep, Coupling, State
 from contactstudy.exceptions import NumericalError
@@ -14,10 +15,9 @@ _LOWERED, _LOWEST = 20e-6, 5e-3
 def static_start(
     system: LinearSystem,
     coupling: Coupling,
-    external: np.ndarray,
-    wheel_dofs: np.ndarray,
+    external: Array,
+    wheel_dofs: IntArray,
     auxiliary_stiffness: float = 1e9,
-    tolerance: float = 1e-11,
 ) -> State:
     """Equilibrium with the contact at step 0: K u = external + B^T lambda(u), at rest.
 
@@ -30,14 +30,12 @@ def static_start(
     ----------
     system : LinearSystem
     coupling : Coupling
-    external : ndarray
-        (n,) constant load.
-    wheel_dofs : ndarray
-        (nw,) dofs of the system that are wheels.
+    external : ndarray (n,)
+        Constant load.
+    wheel_dofs : ndarray of int (nw,)
+        Dofs of the system that are wheels.
     auxiliary_stiffness : float
         Of each spring under a wheel [N/m].
-    tolerance : float
-        Largest force left in a spring, relative to the largest load.
 
     Returns
     -------
@@ -54,13 +52,13 @@ def static_start(
     springs = np.zeros(n)
     springs[wheel_dofs] = kappa
     factor = Factor(system.stiffness + sp.diags_array(springs))
-    coupling.attach(factor, 1.0)
+    attached, before_touch = coupling.attached(factor, 1.0), coupling.start()
 
-    def spring_forces(feet: np.ndarray) -> tuple[np.ndarray, np.ndarray, ContactStep]:
+    def spring_forces(feet: Array) -> tuple[Array, Array, ContactStep]:
         load = np.array(external, dtype=float)
         load[wheel_dofs] += kappa * feet
         u_free = factor.solve(load)
-        contact = coupling(0, u_free)
+        contact = attached(0, u_free, before_touch)
         u = u_free + contact.increment
         return kappa * (u[wheel_dofs] - feet), u, contact
 
@@ -81,7 +79,7 @@ def static_start(
         )
     for _ in range(100):
         scale = max(np.abs(external).max(), np.abs(contact.load).max(), 1e-300)
-        if np.abs(force).max() <= tolerance * scale:
+        if np.abs(force).max() <= coupling.accuracy * scale:
             rest = np.zeros(n)
             return State(0, 0.0, u, rest, rest, external + contact.load, contact)
         move = -inverse @ force

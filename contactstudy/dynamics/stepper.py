@@ -12,10 +12,11 @@ the contact forces on the gap rows B (+1 on the wheel, minus the rail's row). A 
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 
+from contactstudy.arrays import Array
 from contactstudy.compiled import compiled
 from contactstudy.dynamics.banded import Factor, LinearSystem
 from contactstudy.dynamics.integrators import (
@@ -29,10 +30,12 @@ from contactstudy.exceptions import NumericalError
 from contactstudy.validation import positive, raise_if
 
 __all__ = [
+    "AttachedCoupling",
     "ContactStep",
     "Coupling",
     "Integrator",
     "State",
+    "Steps",
     "average_acceleration",
     "generalised_alpha",
     "march",
@@ -46,40 +49,57 @@ class ContactStep:
 
     Parameters
     ----------
-    load : ndarray
-        (n,) generalised force B^T lambda of all contacts on the system [N].
-    increment : ndarray
-        (n,) scale * S^-1 load, the change of the free displacements.
+    load : ndarray (n,)
+        Generalised force B^T lambda of all contacts on the system [N].
+    increment : ndarray (n,)
+        scale * S^-1 load, the change of the free displacements.
     record : mapping
         What is worth keeping, under the names of the dataset's variables: "contact_force"
         (nw,) always [N]; whatever else the law knows.
+    state
+        Contact state at the end of the step, whatever the coupling needs of it in the next;
+        None for a law without memory.
     """
 
-    load: np.ndarray
-    increment: np.ndarray
-    record: Mapping[str, np.ndarray | float]
+    load: Array
+    increment: Array
+    record: Mapping[str, Array | float]
+    state: Any = None
+
+
+class AttachedCoupling(Protocol):
+    """A coupling that knows the compliance of the system on which its forces act."""
+
+    def __call__(self, step: int, u_free: Array, state: Any) -> ContactStep:
+        """Contact at the end of a step; asked twice, it answers the same.
+
+        Parameters
+        ----------
+        step : int
+            0 is the start, then 1, 2, ...
+        u_free : ndarray (n,)
+            Displacements at the end of the step if there were no contact. The coupling
+            returns the load that is in equilibrium with `u_free + increment`.
+        state
+            Contact state at the end of the step before.
+        """
 
 
 class Coupling(Protocol):
     """A contact law joined to the moving wheel positions, known for every step."""
 
-    def attach(self, factor: Factor, scale: float) -> None:
-        """Take the factor of the system that the next calls belong to.
+    @property
+    def accuracy(self) -> float:
+        """How accurately the forces fulfil the law, relative to the largest."""
 
-        Called once before the static start (stiffness with auxiliary springs under the wheels,
-        scale 1) and once before the first step (S, scale 1 - alpha_f).
-        """
+    def start(self) -> Any:
+        """Contact state before anything has touched."""
 
-    def __call__(self, step: int, u_free: np.ndarray) -> ContactStep:
-        """Contact at the end of a step.
+    def attached(self, factor: Factor, scale: float) -> AttachedCoupling:
+        """Join to a system with the compliance scale * S^-1, S given by its factor.
 
-        Parameters
-        ----------
-        step : int
-            0 is the start (asked several times by the static start), then 1, 2, ...
-        u_free : ndarray
-            (n,) displacements at the end of the step if there were no contact. The coupling
-            returns the load that is in equilibrium with `u_free + increment`.
+        The static start uses one (stiffness with auxiliary springs under the wheels, scale 1),
+        the march another (scale 1 - alpha_f).
         """
 
 
@@ -92,33 +112,58 @@ class State:
     step : int
     time : float
         Since the start [s].
-    u, v, a : ndarray
-        (n,) displacements, velocities and accelerations.
-    load : ndarray
-        (n,) total load, external and contact.
+    u, v, a : ndarray (n,)
+        Displacements, velocities and accelerations.
+    load : ndarray (n,)
+        Total load, external and contact.
     contact : ContactStep or None
+        With the contact's own state.
     """
 
     step: int
     time: float
-    u: np.ndarray
-    v: np.ndarray
-    a: np.ndarray
-    load: np.ndarray
+    u: Array
+    v: Array
+    a: Array
+    load: Array
     contact: ContactStep | None = None
+
+
+@dataclass(frozen=True)
+class Steps:
+    """Equal steps in time.
+
+    Parameters
+    ----------
+    length : float
+        [s].
+    count : int
+    position : callable, optional
+        X of the leading wheel at a step, for the message when something breaks down [m].
+
+    Raises
+    ------
+    InputError
+        For a length that is not positive.
+    """
+
+    length: float
+    count: int
+    position: Callable[[int], float] | None = None
+
+    def __post_init__(self) -> None:
+        raise_if(positive("time step", self.length, "s"))
 
 
 def march(
     system: LinearSystem,
     coupling: Coupling | None,
     start: State,
-    dt: float,
-    n_steps: int,
+    steps: Steps,
     integrator: Integrator,
-    external: np.ndarray | Callable[[int], np.ndarray],
-    position: Callable[[int], float] | None = None,
+    external: Array | Callable[[int], Array],
 ) -> Iterator[State]:
-    """Step through time; yields the states after steps 1 .. n_steps.
+    """Step through time; yields the states after steps 1, 2, ...
 
     Parameters
     ----------
@@ -127,29 +172,25 @@ def march(
         None: no contact.
     start : State
         At step 0, with accelerations and load that satisfy the equation of motion.
-    dt : float
-        [s].
-    n_steps : int
+    steps : Steps
     integrator : Integrator
     external : ndarray or callable
         (n,) constant load, or the load at the end of each step.
-    position : callable, optional
-        Position of the leading wheel at a step, for the message when something breaks down.
 
     Raises
     ------
-    InputError
-        For a time step that is not positive.
     NumericalError
         If S cannot be factored or a state is not finite; says at which step.
     """
-    raise_if(positive("time step", dt, "s"))
+    dt = steps.length
     alpha_m, alpha_f = integrator.alpha_m, integrator.alpha_f
     wm, wf = 1.0 - alpha_m, 1.0 - alpha_f
-    c0, c2, c3, d0, d2, d3 = integrator.kinematics(dt)
+    kinematics = c0, c2, c3, d0, d2, d3 = integrator.kinematics(dt)
     factor = Factor(system.combine(wm * c0, wf * d0, wf))
+    attached = contact_state = None
     if coupling is not None:
-        coupling.attach(factor, wf)
+        attached = coupling.attached(factor, wf)
+        contact_state = start.contact.state if start.contact else coupling.start()
     mass, damping, stiffness = map(windows, (system.mass, system.damping, system.stiffness))
     # S u* = (1-af) f_ext(n+1) + af f(n) + M(...) + C(...) + K(...), each (...) = (c u + d v + e a)
     of_mass = np.array([wm * c0, -wm * c2, -wm * c3 - alpha_m])
@@ -157,27 +198,26 @@ def march(
     of_stiffness = np.array([-alpha_f, 0.0, 0.0])
     load_at = external if callable(external) else lambda step: external
     u, v, a, load = start.u, start.v, start.a, start.load
-    for step in range(1, n_steps + 1):
+    for step in range(1, steps.count + 1):
         ext = load_at(step)
         rhs = wf * ext
-        add_product(*mass, of_mass, u, v, a, rhs)
-        add_product(*damping, of_damping, u, v, a, rhs)
+        add_product(mass, of_mass, (u, v, a), rhs)
+        add_product(damping, of_damping, (u, v, a), rhs)
         if alpha_f != 0.0:
             rhs += alpha_f * load
-            add_product(*stiffness, of_stiffness, u, v, a, rhs)
+            add_product(stiffness, of_stiffness, (u, v, a), rhs)
         u_new = factor.solve(rhs)
-        contact = None
-        load = ext
-        if coupling is not None:
-            contact = coupling(step, u_new)
+        contact, load = None, ext
+        if attached is not None:
+            contact = attached(step, u_new, contact_state)
+            contact_state = contact.state
             u_new = u_new + contact.increment
             load = ext + contact.load
         v_new, a_new = np.empty_like(u), np.empty_like(u)
-        finite = _advance(c0, c2, c3, d0, d2, d3, u, v, a, u_new, v_new, a_new)
-        if not finite:
-            where = f" (wheel at X = {position(step):.3f} m)" if position else ""
+        if not _advance(kinematics, (u, v, a), (u_new, v_new, a_new)):
+            where = f" (wheel at X = {steps.position(step):.3f} m)" if steps.position else ""
             raise NumericalError(
-                f"the state is not finite after step {step} of {n_steps},"
+                f"the state is not finite after step {step} of {steps.count},"
                 f" t = {step * dt:.6g} s{where}"
             )
         u, v, a = u_new, v_new, a_new
@@ -186,20 +226,13 @@ def march(
 
 @compiled
 def _advance(
-    c0: float,
-    c2: float,
-    c3: float,
-    d0: float,
-    d2: float,
-    d3: float,
-    u: np.ndarray,
-    v: np.ndarray,
-    a: np.ndarray,
-    u_new: np.ndarray,
-    v_new: np.ndarray,
-    a_new: np.ndarray,
+    coefficients: tuple[float, float, float, float, float, float],
+    old: tuple[Array, Array, Array],
+    new: tuple[Array, Array, Array],
 ) -> bool:
     """Newmark's kinematics; False if the new state is not finite."""
+    c0, c2, c3, d0, d2, d3 = coefficients
+    (u, v, a), (u_new, v_new, a_new) = old, new
     total = 0.0
     for i in range(len(u)):
         moved = u_new[i] - u[i]

@@ -5,8 +5,10 @@ import scipy.sparse as sp
 
 from contactstudy.compiled import compiled_in_any_order
 
+Windows = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
 
-def windows(matrix: sp.csr_array) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+
+def windows(matrix: sp.csr_array) -> Windows:
     """Rows as contiguous windows from their first to their last nonzero column.
 
     A banded matrix has few zeros inside its windows, so no column needs looking up. Rows with
@@ -50,17 +52,14 @@ def windows(matrix: sp.csr_array) -> tuple[np.ndarray, np.ndarray, np.ndarray, n
 
 @compiled_in_any_order
 def add_product(
-    first: np.ndarray,
-    width: np.ndarray,
-    begin: np.ndarray,
-    values: np.ndarray,
+    matrix: Windows,
     coefficients: np.ndarray,
-    u: np.ndarray,
-    v: np.ndarray,
-    a: np.ndarray,
+    motion: tuple[np.ndarray, np.ndarray, np.ndarray],
     y: np.ndarray,
 ) -> None:
-    """y += A (c0 u + c1 v + c2 a) for a matrix A in windows."""
+    """y += A (c0 u + c1 v + c2 a) for a matrix A in windows and a motion (u, v, a)."""
+    first, width, begin, values = matrix
+    u, v, a = motion
     x = coefficients[0] * u + coefficients[1] * v + coefficients[2] * a
     for row in range(len(y)):
         here = values[begin[row] : begin[row] + width[row]]

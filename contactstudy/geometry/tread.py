@@ -9,8 +9,7 @@ from contactstudy.geometry.points import ContactPoints, contact_points
 from contactstudy.geometry.quadrature import Quadrature
 from contactstudy.geometry.search import CandidateList
 from contactstudy.solids.wheel import WheelFlexibility
-from contactstudy.track.solid import SolidTrack
-from contactstudy.track.unreduced import UnreducedTrack
+from contactstudy.track.meshed import MeshedTrack
 
 
 def wheel_points(
@@ -35,9 +34,7 @@ def candidate_list(wheel: WheelFlexibility, geometry: Geometry | None = None) ->
     return tread_candidates(geometry or Geometry.of(wheel.recipe), wheel.x, wheel.y)
 
 
-def mesh_problems(
-    track: SolidTrack | UnreducedTrack, wheel: WheelFlexibility, points: ContactPoints
-) -> list[str]:
+def mesh_problems(track: MeshedTrack, wheel: WheelFlexibility, points: ContactPoints) -> list[str]:
     """What speaks against pressing this wheel on this rail."""
     half, recipe = track.recipe.symmetric, wheel.recipe
     problems = []

@@ -5,15 +5,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from contactstudy.arrays import Array
-from contactstudy.contact.residual import ResidualFlexibility, patch_splines
+from contactstudy.contact.nearby import NearbyColumns
+from contactstudy.contact.press import PressCurve, press_curve
+from contactstudy.contact.rail_surface import RailSurface
+from contactstudy.contact.surface_contact import SurfaceContact
 from contactstudy.dynamics.banded import Factor
-from contactstudy.geometry.placement import Geometry
 from contactstudy.geometry.points import ContactPoints
-from contactstudy.geometry.quadrature import Quadrature
-from contactstudy.geometry.tread import wheel_points
-from contactstudy.solids.wheel import WheelFlexibility
-from contactstudy.track.solid import SolidTrack
-from contactstudy.track.unreduced import UnreducedTrack
+from contactstudy.track.meshed import MeshedTrack
 
 
 @dataclass(frozen=True)
@@ -35,45 +33,62 @@ class BodiesAtRest:
 
 
 def bodies_at_rest(
-    track: SolidTrack | UnreducedTrack,
-    wheel: WheelFlexibility,
-    x: float | None = None,
-    quadrature: Quadrature = "gauss",
-    geometry: Geometry | None = None,
+    track: MeshedTrack, contact: SurfaceContact, x: float | None = None
 ) -> BodiesAtRest:
     """Points and flexibility of a wheel that stands on the track.
 
     Parameters
     ----------
-    track : SolidTrack or UnreducedTrack
-    wheel : WheelFlexibility
+    track : MeshedTrack
+    contact : SurfaceContact
+        Its wheel with all its static flexibility; modes do not count.
     x : float, optional
         Position on the track in m; the middle of its middle bay when not given.
-    quadrature, geometry
-        As in `solvers.surface.surface_contact`.
 
     Returns
     -------
     BodiesAtRest
     """
-    points = wheel_points(wheel, quadrature, geometry)
-    x = (track.track.n_bays // 2 + 0.5) * track.track.bay_length if x is None else x
-    half_length = float(np.abs(points.x).max()) + 2 * track.thickness
-    patch = track.patch(x, half_length)
-    factor = Factor(track.stiffness)
-    unit = np.zeros((factor.n, len(patch.dofs)))
-    unit[patch.dofs, np.arange(len(patch.dofs))] = 1.0
-    solved = factor.solve(unit)
-    C = solved[patch.dofs]
-    along, across = patch_splines(patch, points)
-    P = np.kron(along(x - patch.x[0] + points.x), across)
-    residual = ResidualFlexibility(along, across, points.x, track.thickness, track.residual_period)
+    points, x = contact.points, track.track.middle if x is None else x
+    under = RailSurface(track, points).under(x)
+    patch, every = under.patch, np.arange(len(points.gap))
+    near = NearbyColumns(Factor(track.stiffness))
+    near.move_to(patch)
+    P = under.rows(every)
     PH = P @ patch.map
-    tread = points.wheel_rows.matrix(len(wheel.flexibility))
-    W = residual(x, patch).block(np.arange(len(points.gap)))
-    W += tread @ wheel.flexibility @ tread.T
-    W += PH @ residual.beyond(0.5 * (C + C.T), patch) @ PH.T
+    tread = points.wheel_rows.matrix(len(contact.wheel.flexibility))
+    W = under.residual.block(every)
+    W += tread @ contact.wheel.flexibility @ tread.T
+    W += PH @ under.beyond(near.compliance) @ PH.T
     # deflection of the centre line per unit nodal force; forces push the rail down
-    reference = P @ (patch.map @ (patch.centre_map[0] @ solved[patch.centre_dofs]))
-    reference += P @ patch.centre_residual[0]
-    return BodiesAtRest(points, W, reference)
+    moved = near.displacement(patch, patch.centre_dofs) @ patch.centre_map[0]
+    return BodiesAtRest(points, W, PH @ moved + P @ patch.centre_residual[0])
+
+
+def geometry_press(
+    track: MeshedTrack, contact: SurfaceContact, loads: Array, x: float | None = None
+) -> PressCurve:
+    """Static press of the wheel on the rail, measured from the hub to the rail's centre line.
+
+    The deflection of the rail as a beam is taken out with the centre line, so what is left is
+    the local flexibility that a point model's contact spring stands for; its tangent at the
+    static load (`contact.press.tangent_stiffness`) is the matching k_r.
+
+    Parameters
+    ----------
+    track : MeshedTrack
+        Any supported track with the rail. In the middle of a bay its supports hardly matter;
+        over a sleeper the compression of the web by the pad adds 3 % to the approach.
+    contact : SurfaceContact
+        With an elastic or rigid wheel.
+    loads : ndarray (k,)
+        In N.
+    x : float, optional
+        Position on the track in m; the middle of its middle bay when not given.
+
+    Returns
+    -------
+    PressCurve
+    """
+    at = bodies_at_rest(track, contact, x)
+    return press_curve(at.points, at.flexibility, loads, contact.enforcement, at.centre_line)

@@ -2,48 +2,67 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from contactstudy.arrays import IntArray
 from contactstudy.contact.surface import SurfaceCoupling
-from contactstudy.dynamics.stepper import State
-from contactstudy.solvers.patch_fields import node_coordinates, node_fields
+from contactstudy.dynamics.stepper import Coupling, State
+from contactstudy.solvers.journey import Journey
+from contactstudy.solvers.observers import Watch
+from contactstudy.solvers.passage import Passage
+from contactstudy.solvers.patch_fields import node_coordinates, node_fields, surface_of
+from contactstudy.track.discrete import DiscreteTrack
 
 if TYPE_CHECKING:
     import xarray as xr
 
 
+@dataclass(frozen=True)
 class Frames:
-    """Keeps the nodal fields of the patch at the steps nearest to given positions.
+    """Keeps pressure and contact status at the steps nearest to given positions.
+
+    Surface contact only; the dataset gets `frame_pressure` and `frame_contact_status`
+    (frame, point).
 
     Parameters
     ----------
-    coupling : SurfaceCoupling
-        Of the run.
-    at : sequence of float
-        Positions of the wheel wanted in m.
+    at : tuple of float
+        Positions of the wheel in m.
     """
 
-    def __init__(self, coupling: SurfaceCoupling, at: Sequence[float]) -> None:
-        self._coupling = coupling
-        self._steps = {int(np.argmin(np.abs(coupling.positions - x))) for x in at}
-        self._steps_kept: list[int] = []
-        self._times: list[float] = []
+    at: tuple[float, ...]
+
+    def problems_on(self, journey: Journey) -> list[str]:
+        """Positions that the wheel does not pass."""
+        return journey.not_passed("frames_at", self.at)
+
+    def watch(self, passage: Passage[DiscreteTrack], coupling: Coupling) -> Watch:
+        """See `Observer`."""
+        return _Frames(passage, surface_of(coupling), passage.journey.steps_at(self.at))
+
+
+class _Frames(Watch):
+    def __init__(
+        self, passage: Passage[DiscreteTrack], coupling: SurfaceCoupling, steps: IntArray
+    ) -> None:
+        self._passage, self._points = passage, coupling.wheel.points
+        self._steps = set(steps.tolist())
+        self._kept: list[tuple[int, float]] = []
         self._fields: list[dict[str, xr.Variable]] = []
 
-    def __call__(self, state: State) -> None:
-        """See a state of the run; keep its patch if it is one of those wanted."""
-        if state.step not in self._steps:
+    def see(self, state: State) -> None:
+        """Keep the patch of the state if it is one of those wanted."""
+        if state.step not in self._steps or state.contact is None:
             return
-        last = self._coupling.last
-        self._steps_kept.append(state.step)
-        self._times.append(state.time)
-        self._fields.append(node_fields(self._coupling.points, [last.forces], [last.gap], "frame"))
+        patch = state.contact.state
+        self._kept.append((state.step, state.time))
+        self._fields.append(node_fields(self._points, [patch.forces], [patch.gap], "frame"))
 
     def into(self, data: xr.Dataset) -> xr.Dataset:
-        """Add `frame_pressure` and `frame_contact_status` (frame, point) to a dataset."""
+        """Add the frames."""
         import xarray as xr
 
         if not self._fields:
@@ -55,25 +74,13 @@ class Frames:
                 for name in names
             }
         )
-        at = self._coupling.positions[self._steps_kept]
+        steps, times = map(np.array, zip(*self._kept, strict=True))
+        at = self._passage.positions[steps, 0]
+        where = {"units": "m", "long_name": "position of the wheel"}
         return data.assign_coords(
             {
-                "frame_time": ("frame", np.array(self._times), {"units": "s", "long_name": "time"}),
-                "frame_position": (
-                    "frame",
-                    at,
-                    {"units": "m", "long_name": "position of the wheel"},
-                ),
-                **node_coordinates(self._coupling.points),
+                "frame_time": ("frame", times, {"units": "s", "long_name": "time"}),
+                "frame_position": ("frame", at, where),
+                **node_coordinates(self._points),
             }
         )
-
-
-def both(*observers: Callable[[State], None]) -> Callable[[State], None]:
-    """Let several observers see every state of a run."""
-
-    def see(state: State) -> None:
-        for observer in observers:
-            observer(state)
-
-    return see

@@ -2,24 +2,53 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactstudy.arrays import Array
+from contactstudy.arrays import Array, IntArray
 from contactstudy.contact.surface import PatchState, SurfaceCoupling
-from contactstudy.dynamics.stepper import State
-from contactstudy.geometry.points import ContactPoints
-from contactstudy.solids.wheel import WheelFlexibility
-from contactstudy.solids.wheel_modes import WheelModes, residual_flexibility
-from contactstudy.solvers.patch_fields import node_coordinates, node_fields, stress_variables
-from contactstudy.track.solid import SolidTrack
-from contactstudy.track.unreduced import UnreducedTrack
+from contactstudy.dynamics.stepper import Coupling, State
+from contactstudy.solvers.journey import Journey
+from contactstudy.solvers.observers import Watch
+from contactstudy.solvers.passage import Passage
+from contactstudy.solvers.patch_fields import (
+    node_coordinates,
+    node_fields,
+    stress_variables,
+    surface_of,
+)
+from contactstudy.track.discrete import DiscreteTrack
 
 if TYPE_CHECKING:
     import xarray as xr
+
+
+@dataclass(frozen=True)
+class Instants:
+    """Keeps the contact at the steps nearest to given positions.
+
+    Surface contact only; the dataset gets `pressure`, `gap` and `contact_status`
+    (instant, point) at the tread nodes, the largest stresses below the patch, `von_mises` and
+    `maximum_shear` (instant) with `_depth`, `_x` and `_y`, and the deformed sections of wheel
+    and rail at the first instant.
+
+    Parameters
+    ----------
+    at : tuple of float
+        Positions of the wheel in m.
+    """
+
+    at: tuple[float, ...]
+
+    def problems_on(self, journey: Journey) -> list[str]:
+        """Positions that the wheel does not pass."""
+        return journey.not_passed("pressure_at", self.at)
+
+    def watch(self, passage: Passage[DiscreteTrack], coupling: Coupling) -> Watch:
+        """See `Observer`."""
+        return _Instants(passage, surface_of(coupling), passage.journey.steps_at(self.at))
 
 
 @dataclass(frozen=True)
@@ -27,105 +56,58 @@ class _Kept:
     position: float
     time: float
     wheel: Array  # displacements of the hub and of its modes
-    state: PatchState
+    patch: PatchState
     rail: Array  # displacement (k, 2) of the section's nodes
-    plane: float  # X of that section
 
 
-class Instants:
-    """Keeps the contact at the steps nearest to given positions.
-
-    Parameters
-    ----------
-    coupling : SurfaceCoupling
-        Of the run.
-    track : SolidTrack or UnreducedTrack
-    positions : ndarray (n_times,)
-        X of the wheel at every state in m.
-    at : sequence of float
-        Positions wanted in m.
-    """
-
+class _Instants(Watch):
     def __init__(
-        self,
-        coupling: SurfaceCoupling,
-        track: SolidTrack | UnreducedTrack,
-        positions: Array,
-        at: Sequence[float],
+        self, passage: Passage[DiscreteTrack], coupling: SurfaceCoupling, steps: IntArray
     ) -> None:
-        self._coupling, self._track, self._positions = coupling, track, positions
-        self._steps = {int(np.argmin(np.abs(positions - x))) for x in at}
+        self._passage, self._coupling = passage, coupling
+        self._steps = set(steps.tolist())
         self._kept: list[_Kept] = []
 
-    def __call__(self, state: State) -> None:
-        """See a state of the run; keep it if it is one of those wanted."""
-        if state.step not in self._steps:
+    def see(self, state: State) -> None:
+        """Keep the contact of the state if it is one of those wanted."""
+        if state.step not in self._steps or state.contact is None:
             return
-        x, last = float(self._positions[state.step]), self._coupling.last
-        section = self._track.section(x, self._coupling.half_length)
-        self._kept.append(
-            _Kept(
-                x,
-                state.time,
-                state.u[self._coupling.wheel_dofs],
-                last,
-                section.map @ state.u[section.dofs] - section.residual @ last.surface_load,
-                section.position,
-            )
-        )
+        x, patch = float(self._passage.positions[state.step, 0]), state.contact.state
+        section = self._coupling.section(x)
+        moved = section.map @ state.u[section.dofs] - section.residual @ patch.surface_load
+        wheel = state.u[self._coupling.wheel.dofs]
+        self._kept.append(_Kept(x, state.time, wheel, patch, moved))
 
-    def into(
-        self,
-        data: xr.Dataset,
-        points: ContactPoints,
-        wheel: WheelFlexibility,
-        modes: WheelModes | None = None,
-    ) -> xr.Dataset:
-        """Add the fields of the patch, stress maxima and deformed sections to a dataset."""
+    def into(self, data: xr.Dataset) -> xr.Dataset:
+        """Add the fields of the patch, stress maxima and deformed sections."""
         if not self._kept:
             return data
-        n = len(wheel.x) * len(wheel.y)
-        tread = points.wheel_rows.matrix(n)
-        fields = node_fields(
-            points,
-            [k.state.forces for k in self._kept],
-            [k.state.gap for k in self._kept],
-            "instant",
-        )
-        stresses = stress_variables(
-            points,
-            np.asarray(fields["pressure"].values),
-            self._track.recipe.poisson_ratio,
-            "instant",
-        )
-        first = self._kept[0]
-        body = wheel if modes is None else residual_flexibility(wheel, modes)
-        moved = body.section_response @ (tread.T @ first.state.forces) + [0.0, first.wheel[0]]
-        if modes is not None:
-            moved += np.einsum("m,mkc->kc", first.wheel[1:], modes.section_shapes)
-        section = self._track.section(first.position, self._coupling.half_length)
+        wheel, kept = self._coupling.wheel, self._kept
+        points, body = wheel.points, wheel.body
+        forces, gaps = [k.patch.forces for k in kept], [k.patch.gap for k in kept]
+        fields = node_fields(points, forces, gaps, "instant")
+        pressure = np.asarray(fields["pressure"].values)
+        poisson_ratio = self._coupling.track.recipe.poisson_ratio
+        first = kept[0]
+        section = self._coupling.section(first.position)
+        moved = wheel.section_displacement(first.patch.forces, first.wheel)
         metre = {"units": "m"}
-
-        def coordinate(values: Array, unit: str, text: str, dim: str) -> tuple:
-            return (dim, values, {"units": unit, "long_name": text})
-
-        data = data.assign(fields | stresses)
+        plane = metre | {"section_position": section.position}
+        data = data.assign(fields | stress_variables(points, pressure, poisson_ratio, "instant"))
         data = data.assign(
-            section_wheel_nodes=(("wheel_node", "axis"), wheel.section_nodes, metre),
-            section_wheel_quads=(("wheel_quad", "corner"), wheel.section_quads),
+            section_wheel_nodes=(("wheel_node", "axis"), body.section_nodes, metre),
+            section_wheel_quads=(("wheel_quad", "corner"), body.section_quads),
             section_wheel_displacement=(("wheel_node", "axis"), moved, metre),
             section_rail_nodes=(("rail_node", "axis"), section.nodes, metre),
             section_rail_quads=(("rail_quad", "corner"), section.quads),
-            section_rail_displacement=(
-                ("rail_node", "axis"),
-                first.rail,
-                metre | {"section_position": first.plane},
-            ),
+            section_rail_displacement=(("rail_node", "axis"), first.rail, plane),
         )
-        data = data.assign_coords(node_coordinates(points))
+        times = {"units": "s", "long_name": "time"}
+        where = metre | {"long_name": "position of the wheel"}
         return data.assign_coords(
-            instant_time=coordinate(np.array([k.time for k in self._kept]), "s", "time", "instant"),
-            instant_position=coordinate(
-                np.array([k.position for k in self._kept]), "m", "position of the wheel", "instant"
-            ),
+            node_coordinates(points)
+            | {
+                "instant_time": ("instant", np.array([k.time for k in kept]), times),
+                "instant_position": ("instant", np.array([k.position for k in kept]), where),
+            }
         )

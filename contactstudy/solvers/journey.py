@@ -1,11 +1,13 @@
 """Where the wheels run, how fast, and in which time steps."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Annotated
 
 import numpy as np
 
+from contactstudy.arrays import Array, IntArray
 from contactstudy.track.model import Track
 from contactstudy.validation import (
     Above,
@@ -81,13 +83,26 @@ class Journey(Parameters):
         return math.floor(steps * (1.0 + 1e-12))
 
     @property
-    def times(self) -> np.ndarray:
+    def times(self) -> Array:
         """Time of each state, from 0, (n_steps + 1,) s."""
-        return self.time_step * np.arange(self.n_steps + 1)
+        return np.asarray(self.time_step * np.arange(self.n_steps + 1))
 
-    def wheel_positions(self, offsets: np.ndarray) -> np.ndarray:
+    def wheel_positions(self, offsets: Array) -> Array:
         """X of each wheel at each state, (n_steps + 1, n_wheels) m."""
         return self.start + self.speed * self.times[:, None] + np.asarray(offsets)[None, :]
+
+    def steps_at(self, at: Sequence[float]) -> IntArray:
+        """Steps at which the leading wheel is nearest to positions X, (k,) for k of them."""
+        x = self.start + self.speed * self.times
+        return np.array([int(np.argmin(np.abs(x - one))) for one in at], dtype=np.int64)
+
+    def not_passed(self, name: str, at: Sequence[float]) -> list[str]:
+        """Complaints about positions X that the leading wheel does not pass."""
+        return [
+            f"{name} = {x:g} m: the wheel must pass it, from {self.start:g} to {self.end:g} m"
+            for x in at
+            if not self.start <= x <= self.end
+        ]
 
     def problems_on(
         self, track: Track, vehicle: Vehicle | None = None, key: Naming | None = None

@@ -8,6 +8,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactstudy.arrays import Array
+from contactstudy.contact.surface import SurfaceCoupling
+from contactstudy.dynamics.stepper import Coupling
+from contactstudy.exceptions import InputError
 from contactstudy.geometry.points import ContactPoints
 from contactstudy.halfspace.pressure_field import SurfacePressure, recovered_pressure
 from contactstudy.halfspace.subsurface import StressMaximum, stress_maxima
@@ -20,6 +23,19 @@ _INVARIANTS = {
     "von_mises": "largest equivalent stress of von Mises below the patch",
     "maximum_shear": "largest shear stress below the patch",
 }
+
+
+def surface_of(coupling: Coupling) -> SurfaceCoupling:
+    """The coupling of a run whose patch is to be watched.
+
+    Raises
+    ------
+    InputError
+        If it is no surface contact.
+    """
+    if not isinstance(coupling, SurfaceCoupling):
+        raise InputError("fields of the patch: only surface contact has them, point contact none")
+    return coupling
 
 
 def node_coordinates(points: ContactPoints) -> dict[str, xr.Variable]:

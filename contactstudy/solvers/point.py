@@ -3,19 +3,21 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from contactstudy.contact.laws import ContactLaw, HertzSpring, LinearSpring, RigidContact
-from contactstudy.contact.point import PointCoupling
+from contactstudy.contact.point import PointCoupling, PointGaps
 from contactstudy.dynamics.stepper import Integrator, average_acceleration, generalised_alpha
-from contactstudy.exceptions import InputError
-from contactstudy.irregularity import Profile, faded
+from contactstudy.irregularity import Profile
 from contactstudy.solvers.journey import Journey
-from contactstudy.solvers.run import Assembly, Progress, run
-from contactstudy.track.beam import BeamTrack, RailTheory
-from contactstudy.track.discrete import DiscreteTrack
+from contactstudy.solvers.observers import Observer
+from contactstudy.solvers.passage import Passage
+from contactstudy.solvers.run import run
+from contactstudy.track.beam import BeamTrack
+from contactstudy.track.discrete import DiscreteTrack, not_discrete
 from contactstudy.track.model import Direction, Track
 from contactstudy.validation import raise_if
 from contactstudy.vehicle import Vehicle
@@ -33,40 +35,32 @@ def point_contact(
     irregularity: Profile,
     journey: Journey,
     *,
-    rail_theory: RailTheory = "euler",
-    elements_per_bay: int = 4,
-    local_compliance: bool = False,
     law: ContactLaw,
-    direction: Direction = "Z",
+    observers: Sequence[Observer] = (),
     integrator: Integrator | None = None,
-    progress: Progress | None = None,
 ) -> xr.Dataset:
     """Run wheels over a track with a contact law at a point under each.
 
     Parameters
     ----------
     track : Track or DiscreteTrack
-        A `Track` gets a beam rail by the three options below; any discretised track (the solid
-        rail) is taken as it is.
+        A discretised track, such as `BeamTrack(Track(), "timoshenko", elements_per_bay=8)` or a
+        `SolidTrack`. A `Track` gets the paper's beam, `BeamTrack(track)`. In the lateral
+        direction (`BeamTrack(track, direction="Y")`) there is no static load and the contact
+        holds in tension.
     vehicle : Vehicle
     irregularity : Profile
         r(X), positive raises the running surface. It is faded in from each wheel's start.
     journey : Journey
-    rail_theory : {"euler", "timoshenko"}
-    elements_per_bay : int
-    local_compliance : bool
-        Whether the loaded element's own compliance acts in series with the contact.
     law : LinearSpring, RigidContact, HertzSpring or MovingForce
-    direction : {"Z", "Y"}
-        In "Y" there is no static load and the contact holds in tension.
+    observers : sequence of Observer
+        Watch the run, such as `solvers.observers.Progress`.
     integrator : Integrator, optional
         Average acceleration when not given; for a rigid contact generalised-alpha with spectral
         radius `RIGID_SPECTRAL_RADIUS`. A rigid contact is a constraint on displacements (an
         index-3 problem): under average acceleration errors of its force never die out but grow
         linearly, so it needs an integrator with numerical damping (A. Cardona and M. Geradin,
         Comput. Struct. 33 (1989) 801). Which one ran is in the dataset.
-    progress : callable, optional
-        Called with (steps done, steps).
 
     Returns
     -------
@@ -84,66 +78,35 @@ def point_contact(
     if integrator is None:
         rigid = isinstance(law, RigidContact)
         integrator = generalised_alpha(RIGID_SPECTRAL_RADIUS) if rigid else average_acceleration()
-    problems: list[str] = []
-    if isinstance(track, Track):
-        described = track
-        try:
-            discrete: DiscreteTrack = BeamTrack(
-                track, rail_theory, elements_per_bay, local_compliance, direction
-            )
-        except InputError as error:
-            problems += error.problems
-    else:
-        described, discrete = track.track, track
-        if direction != "Z":
-            problems.append(f"direction = {direction!r}: this track is discretised for 'Z' only")
-    problems += journey.problems_on(described, vehicle)
-    problems += _law_problems(law, direction, integrator)
+    discrete = BeamTrack(track) if isinstance(track, Track) else track
+    raise_if(not_discrete(discrete))
+    problems = journey.problems_on(discrete.track, vehicle)
+    problems += _law_problems(law, discrete.direction, integrator)
+    for observer in observers:
+        problems += observer.problems_on(journey)
     raise_if(problems)
 
-    assembly = Assembly(discrete, vehicle, direction)
-    coupling, r = point_coupling(assembly, irregularity, journey, law)
-    return run(
-        assembly,
-        coupling,
-        journey,
-        integrator,
-        r,
-        setup_began=began,
-        attrs={"solver": "point", **_describe_rail(discrete), **_describe_law(law)},
-        progress=progress,
-        local_compliance=coupling.local_compliance,
-    )
+    passage = Passage(discrete, vehicle, irregularity, journey)
+    coupling = point_coupling(passage, law)
+    setup = time.perf_counter() - began
+    told = {"solver": "point", **_describe_rail(discrete), **_describe_law(law)}
+    data = run(passage, coupling, integrator, observers, told)
+    data.attrs["seconds_setup"] += setup
+    return data
 
 
-def point_coupling(
-    assembly: Assembly, irregularity: Profile, journey: Journey, law: ContactLaw
-) -> tuple[PointCoupling, np.ndarray]:
-    """Join a law to all wheel positions of a journey.
-
-    Returns
-    -------
-    coupling : PointCoupling
-    irregularity : ndarray
-        (n_times, n_wheels) r under each wheel, faded in from each wheel's start [m].
-    """
-    positions = journey.wheel_positions(assembly.vehicle.wheel_offsets)
-    r = np.column_stack(
-        [faded(irregularity, x[0], journey.fade_in)(x) for x in np.ascontiguousarray(positions.T)]
+def point_coupling(passage: Passage[DiscreteTrack], law: ContactLaw) -> PointCoupling:
+    """Join a law to all wheel positions of a passage."""
+    track, x, shape = passage.track, passage.positions.ravel(), passage.positions.shape
+    dofs, weights = track.rail_rows(x)
+    # a spring gives back no more than it stands for
+    top = np.maximum(track.top_load_compliance(x), -law.softness)
+    gaps = PointGaps(
+        *PointGaps.rows(passage.wheel_dofs, dofs.reshape(*shape, -1), weights.reshape(*shape, -1)),
+        (track.local_compliance(x) + top).reshape(shape),
+        passage.roughness,
     )
-    shape = positions.shape
-    rail_dofs, rail_weights = assembly.track.rail_rows(positions.ravel())
-    coupling = PointCoupling(
-        law,
-        assembly.wheel_dofs,
-        rail_dofs.reshape(*shape, -1),
-        rail_weights.reshape(*shape, -1),
-        assembly.track.local_compliance(positions.ravel()).reshape(shape),
-        r,
-        assembly.static_loads,
-        bilateral=assembly.direction == "Y",
-    )
-    return coupling, r
+    return PointCoupling(law, gaps, passage.static_loads, bilateral=track.direction == "Y")
 
 
 def _law_problems(law: ContactLaw, direction: Direction, integrator: Integrator) -> list[str]:

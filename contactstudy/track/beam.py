@@ -6,6 +6,7 @@ from typing import Literal
 
 import numpy as np
 
+from contactstudy.arrays import Array, IntArray
 from contactstudy.track.discrete import AssembledTrack
 from contactstudy.track.hermite import BeamElement
 from contactstudy.track.inner_dofs import InnerDofs, pad_parts
@@ -74,7 +75,7 @@ class BeamTrack(AssembledTrack):
             rail.rotary_inertia(self.direction),
         )
 
-    def rail_rows(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def rail_rows(self, x: Array) -> tuple[IntArray, Array]:
         """Rows that give the rail's deflection at X.
 
         Parameters
@@ -101,7 +102,7 @@ class BeamTrack(AssembledTrack):
         held = dofs < 0
         return np.where(held, 0, dofs), np.where(held, 0.0, weights)
 
-    def local_compliance(self, x: np.ndarray) -> np.ndarray:
+    def local_compliance(self, x: Array) -> Array:
         """Compliance at X that no dof has, (m,) [m/N]; 0 when the option is off."""
         element, xi = self._locate(x)
         if not self.element_compliance:
@@ -111,7 +112,11 @@ class BeamTrack(AssembledTrack):
             compliance = np.maximum(compliance - self._inner.compliance(element, xi), 0.0)
         return compliance
 
-    def _locate(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def top_load_compliance(self, x: Array) -> Array:
+        """Zero: a beam's section moves as one."""
+        return np.zeros(np.shape(x))
+
+    def _locate(self, x: Array) -> tuple[IntArray, Array]:
         """Element index and local coordinate in 0..1 of each X."""
         scaled = np.atleast_1d(np.asarray(x, dtype=float)) / self.element.length
         element = np.clip(np.floor(scaled).astype(np.int64), 0, self.n_elements - 1)
@@ -125,7 +130,7 @@ class BeamTrack(AssembledTrack):
         return InnerDofs.of(self.track.pad_footprints, self.element, self.n_elements)
 
     @cached_property
-    def _free(self) -> np.ndarray:
+    def _free(self) -> IntArray:
         """Rail dofs (w and theta of each node in turn, inner dofs) that the ends leave free."""
         n = 2 * self.n_elements + 2
         held = {"clamped": [0, 1, n - 2, n - 1], "pinned": [0, n - 2], "free": []}
@@ -133,7 +138,7 @@ class BeamTrack(AssembledTrack):
         return np.setdiff1d(np.arange(n + n_inner), held[self.track.ends])
 
     @cached_property
-    def _final_dof(self) -> np.ndarray:
+    def _final_dof(self) -> IntArray:
         """Final dof of each rail dof, -1 where held."""
         final = np.full(self._free[-1] + 3, -1, dtype=np.int64)
         final[self._free] = self._assembled.rail_dofs

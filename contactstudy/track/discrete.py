@@ -3,10 +3,11 @@
 from abc import ABC, abstractmethod
 from typing import Protocol
 
-import numpy as np
 import scipy.sparse as sp
 
+from contactstudy.arrays import Array, IntArray
 from contactstudy.track.model import Track
+from contactstudy.track.rail import Direction
 from contactstudy.track.supports import SupportedRail
 
 
@@ -33,11 +34,31 @@ class DiscreteTrack(Protocol):
     def stiffness(self) -> sp.csr_array:
         """Stiffness matrix (n_dofs, n_dofs) [N/m]."""
 
-    def rail_rows(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    @property
+    def direction(self) -> Direction:
+        """Vertical or lateral displacements of the rail."""
+
+    def rail_rows(self, x: Array) -> tuple[IntArray, Array]:
         """Dofs and weights (m, k) of the displacement of the rail's centre line at X (m,)."""
 
-    def local_compliance(self, x: np.ndarray) -> np.ndarray:
+    def local_compliance(self, x: Array) -> Array:
         """Compliance under the load that the dofs leave out, (m,) [m/N]."""
+
+    def top_load_compliance(self, x: Array) -> Array:
+        """What a wheel's load adds for it acts on top of the rail, (m,) [m/N]; may be negative.
+
+        Against the load on the centre line, and with a contact spring that is the tangent of
+        the press in mid-bay, see `track.top_load`; a beam has none.
+        """
+
+
+def not_discrete(track: object) -> list[str]:
+    """Return the complaint (or nothing) about a track that is not discretised."""
+    if hasattr(type(track), "rail_rows"):
+        return []
+    return [
+        f"track: a {type(track).__name__} is no track; give a Track, a BeamTrack or a SolidTrack"
+    ]
 
 
 class AssembledTrack(ABC):

@@ -234,6 +234,11 @@ class Track(Parameters):
         return self.length / self.n_bays
 
     @property
+    def middle(self) -> float:
+        """X of the middle of the middle bay [m]."""
+        return (self.n_bays // 2 + 0.5) * self.bay_length
+
+    @property
     def support_positions(self) -> np.ndarray:
         """X of the supports, (n_bays + 1,) m; empty without discrete supports."""
         if not isinstance(self.support, DiscreteSupports):

@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from contactstudy.arrays import Array, IntArray
 
 
@@ -52,6 +54,27 @@ class SurfacePatch:
     centre_dofs: IntArray
     centre_map: Array
     centre_residual: Array
+
+    def centre_motion(
+        self, u_free: Array, increment: Array, nodal: Array
+    ) -> dict[str, Array | float]:
+        """Of the centre line under nodal forces (nodes,) on the rail, for the record of a step.
+
+        Returns
+        -------
+        dict
+            `rail_residual` (1,): what the dofs leave out of the deflection [m]; for a whole
+            section `rail_lateral` [m] and `rail_roll` [rad], displacements u_free + increment (n,).
+        """
+        record: dict[str, Array | float] = {
+            "rail_residual": np.array([-float(self.centre_residual[0] @ nodal)])
+        }
+        if len(self.centre_map) == 3:
+            at = self.centre_dofs
+            motion = self.centre_map[1:] @ (u_free[at] + increment[at])
+            motion -= self.centre_residual[1:] @ nodal
+            record["rail_lateral"], record["rail_roll"] = float(motion[0]), float(motion[1])
+        return record
 
 
 @dataclass(frozen=True)

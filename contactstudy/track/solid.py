@@ -1,5 +1,6 @@
 """The track with its rail as a three-dimensional solid: a chain of condensed cells."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -14,7 +15,9 @@ from contactstudy.track.cell_chain import MOTIONS, CellChain
 from contactstudy.track.discrete import AssembledTrack
 from contactstudy.track.model import DiscreteSupports, Rail, Track, WinklerFoundation
 from contactstudy.track.patch import SectionResponse, SurfacePatch
+from contactstudy.track.rail import Direction
 from contactstudy.track.supports import SupportedRail, add_supports
+from contactstudy.track.top_load import top_load_compliance
 
 
 def solid_rail(recipe: CellRecipe) -> Rail:
@@ -99,6 +102,11 @@ class SolidTrack(AssembledTrack):
         """Number of cells."""
         return round(self.track.length / self.recipe.length)
 
+    @property
+    def direction(self) -> Direction:
+        """Point contact on a meshed rail is vertical."""
+        return "Z"
+
     def rail_rows(self, x: Array) -> tuple[IntArray, Array]:
         """Rows that give the deflection of the rail's centre line at X.
 
@@ -133,6 +141,14 @@ class SolidTrack(AssembledTrack):
             + 2 * t * (1 - t) * following[slices]
             + t**2 * own[slices + 1]
         )
+
+    def top_load_compliance(self, x: Array) -> Array:
+        """See `DiscreteTrack`."""
+        return self._top_load(x)
+
+    @cached_property
+    def _top_load(self) -> Callable[[Array], Array]:
+        return top_load_compliance(self)
 
     def patch(self, x: float, half_length: float) -> SurfacePatch:
         """Running surface around X, as the contact sees it.

@@ -3,6 +3,7 @@
 Same mesh, same supports, no reduction. Only short rails are practical.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -21,7 +22,9 @@ from contactstudy.track.cell_chain import MOTIONS
 from contactstudy.track.discrete import AssembledTrack
 from contactstudy.track.model import Track, WinklerFoundation
 from contactstudy.track.patch import SectionResponse, SurfacePatch
+from contactstudy.track.rail import Direction
 from contactstudy.track.supports import PadRow, SupportedRail, add_supports
+from contactstudy.track.top_load import top_load_compliance
 
 
 @dataclass(frozen=True)
@@ -72,6 +75,11 @@ class UnreducedTrack(AssembledTrack):
         """Slices of the whole track."""
         return round(self.track.length / self.thickness)
 
+    @property
+    def direction(self) -> Direction:
+        """Point contact on a meshed rail is vertical."""
+        return "Z"
+
     def rail_rows(self, x: Array) -> tuple[IntArray, Array]:
         """Rows of the section's mean deflection at X, as `SolidTrack.rail_rows`."""
         index, t = self._locate(np.atleast_1d(np.asarray(x, dtype=float)))
@@ -84,6 +92,14 @@ class UnreducedTrack(AssembledTrack):
     def local_compliance(self, x: Array) -> Array:
         """Zero, (m,) [m/N]: no dof of the mesh is left out."""
         return np.zeros(np.atleast_1d(x).shape)
+
+    def top_load_compliance(self, x: Array) -> Array:
+        """See `DiscreteTrack`."""
+        return self._top_load(x)
+
+    @cached_property
+    def _top_load(self) -> Callable[[Array], Array]:
+        return top_load_compliance(self)
 
     def patch(self, x: float, half_length: float) -> SurfacePatch:
         """Running surface around X, as `SolidTrack.patch`, with no residual left."""

@@ -7,12 +7,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from contactstudy.contact.augmented import AugmentedLagrangian, Penalty, enforcement
+from contactstudy.contact.augmented import AugmentedLagrangian, Penalty, PointProblem
 from contactstudy.contact.press import press_curve
+from contactstudy.contact.surface_contact import SurfaceContact
 from contactstudy.exceptions import InputError, NumericalError
 from contactstudy.geometry.placement import Geometry
 from contactstudy.geometry.points import ContactPoints, contact_points
 from contactstudy.profiles.named import rail_curve, wheel_curve
+from contactstudy.solids.wheel import WheelRecipe, rigid_wheel
 from contactstudy.verification.cases.point_loads import boussinesq
 
 TOLERANCE = 1e-9
@@ -39,7 +41,7 @@ def brute_force(W: np.ndarray, gap: np.ndarray) -> np.ndarray:
 def augmented(seed: int, n: int, rank: int):  # type: ignore[no-untyped-def]
     W, gap, c = problem(seed, n, rank)
     law = AugmentedLagrangian(TOLERANCE)
-    solution, overlap = law.forces(W + np.diag(c), gap, c, np.zeros(n), None)
+    solution, overlap = law.forces(PointProblem(W + np.diag(c), gap, c, np.zeros(n)))
     return W, gap, c, solution, overlap
 
 
@@ -50,7 +52,7 @@ def test_two_points_equal_brute_force(seed: int) -> None:
     W = np.array([[1.0, 0.0], [0.0, 1.0]]) + 0.9 * rng.random() * np.array([[0, 1.0], [1.0, 0]])
     gap, c = rng.standard_normal(2), np.full(2, 0.1)
     law = AugmentedLagrangian(TOLERANCE)
-    solution, _ = law.forces(W + np.diag(c), gap, c, np.zeros(2), None)
+    solution, _ = law.forces(PointProblem(W + np.diag(c), gap, c, np.zeros(2)))
     np.testing.assert_allclose(solution.forces, brute_force(W, gap), atol=1e-7)
 
 
@@ -76,7 +78,8 @@ def test_complementarity(seed: int, n: int, rank: int) -> None:
 def pressed_nodes(penalty: float, tolerance: float | None):  # type: ignore[no-untyped-def]
     """Static press at 80 kN, pressure at the nodes of a 2 mm grid on two half-spaces."""
     points = node_points()
-    return press_curve(points, half_spaces(points), np.array([80e3]), penalty, tolerance=tolerance)
+    law = Penalty(penalty) if tolerance is None else AugmentedLagrangian(tolerance, penalty)
+    return press_curve(points, half_spaces(points), np.array([80e3]), law)
 
 
 def node_points() -> ContactPoints:
@@ -127,23 +130,26 @@ def test_press_leaves_what_it_says() -> None:
 def test_a_good_start_needs_one_solution() -> None:
     W, gap, c, solution, _ = augmented(1, 10, 14)
     once = AugmentedLagrangian(2 * TOLERANCE, max_updates=1)
-    again, _ = once.forces(W + np.diag(c), gap, c, solution.forces, None)
+    again, _ = once.forces(PointProblem(W + np.diag(c), gap, c, solution.forces))
     np.testing.assert_allclose(again.forces, solution.forces, atol=1e-6)
     with pytest.raises(NumericalError, match="from touching"):
-        once.forces(W + np.diag(c), gap, c, np.zeros(10), None)
+        once.forces(PointProblem(W + np.diag(c), gap, c, np.zeros(10)))
 
 
 def test_a_multiplier_that_is_too_large_is_not_taken() -> None:
     # a start above the solution leaves a gap under force, not an overlap
     W, gap, c, solution, _ = augmented(1, 10, 14)
-    again, _ = AugmentedLagrangian(TOLERANCE).forces(
-        W + np.diag(c), gap, c, solution.forces + 1.0, None
-    )
+    too_large = PointProblem(W + np.diag(c), gap, c, solution.forces + 1.0)
+    again, _ = AugmentedLagrangian(TOLERANCE).forces(too_large)
     np.testing.assert_allclose(W @ again.forces, W @ solution.forces, atol=20 * TOLERANCE)
 
 
 def test_choice() -> None:
-    assert enforcement(None) == Penalty()
-    assert enforcement(1e-8) == AugmentedLagrangian(1e-8)
-    with pytest.raises(InputError, match="must be positive"):
+    wheel = rigid_wheel(WheelRecipe(size=0.004))
+    assert SurfaceContact(wheel).enforcement == Penalty()
+    assert SurfaceContact(wheel, tolerance=1e-8).enforcement == AugmentedLagrangian(1e-8)
+    with pytest.raises(InputError, match="above 0"):
         AugmentedLagrangian(0.0)
+    with pytest.raises(InputError) as caught:
+        SurfaceContact(wheel, penalty=-1.0, tolerance=0.0, quadrature="simpson")
+    assert len(caught.value.problems) == 3

@@ -6,13 +6,16 @@ import scipy.sparse as sp
 from scipy.interpolate import make_interp_spline
 from scipy.optimize import nnls
 
-from contactstudy.contact.surface import SurfaceCoupling
+from contactstudy.contact.augmented import Penalty
+from contactstudy.contact.moving_wheel import MovingWheel
+from contactstudy.contact.surface import Path, SurfaceCoupling
 from contactstudy.dynamics.banded import Factor
 from contactstudy.exceptions import NumericalError
 from contactstudy.geometry.facets import tread_candidates
 from contactstudy.geometry.placement import Geometry
 from contactstudy.geometry.points import contact_points
 from contactstudy.profiles.named import rail_curve, wheel_curve
+from contactstudy.solids.wheel import WheelFlexibility, WheelRecipe
 from contactstudy.track.patch import SurfacePatch
 from contactstudy.verification.cases.point_loads import boussinesq
 
@@ -41,6 +44,8 @@ def rail_matrix(x: np.ndarray, y: np.ndarray, at_x: np.ndarray, at_y: np.ndarray
 
 class FakeTrack:
     """A track of a few dofs that all move the surface, and a half-space on top."""
+
+    thickness, residual_period = STEP, None
 
     def __init__(self, rng: np.random.Generator) -> None:
         self.shapes = rng.standard_normal((N_TRACK, 2)) * np.array([1.0, 3.0])
@@ -74,9 +79,12 @@ def setting(seed: int = 0, n_steps: int = 6):  # type: ignore[no-untyped-def]
     positions = 0.1 + 4.17e-3 * np.arange(n_steps)
     roughness = 1e-6 * np.cos(300 * (positions[:, None] + points.x))
     wheel_F = half_space(x, y)
-    coupling = SurfaceCoupling(
-        track, points, wheel_F, N_TRACK, positions, roughness, search, PENALTY, STEP
+    none = np.zeros((0, 2)), np.zeros((0, 4), dtype=int), np.zeros((0, 2, len(wheel_F)))
+    wheel = MovingWheel(
+        points, WheelFlexibility(WheelRecipe(), x, y, wheel_F, *none), np.array([N_TRACK])
     )
+    path = Path(positions, roughness)
+    coupling = SurfaceCoupling(track, wheel, path, search, Penalty(PENALTY))
     G = rng.standard_normal((N_TRACK + 1, N_TRACK + 1))
     S = G @ G.T * 1e9 + np.diag(np.full(N_TRACK + 1, 2e10))
     S[-1, :-1] = S[:-1, -1] = 0.0
@@ -86,12 +94,13 @@ def setting(seed: int = 0, n_steps: int = 6):  # type: ignore[no-untyped-def]
 @pytest.mark.parametrize("scale", [1.0, 0.6])
 def test_equals_brute_force(scale: float) -> None:
     track, points, wheel_F, coupling, S, positions, roughness, rng = setting()
-    coupling.attach(Factor(sp.csr_array(S)), scale)
+    contact, state = coupling.attached(Factor(sp.csr_array(S)), scale), coupling.start()
     Pw = points.wheel_rows.matrix(len(wheel_F))
     for step, X in enumerate(positions):
         u_free = 5e-6 * rng.standard_normal(N_TRACK + 1)
         u_free[-1] -= 80e-6 + 10e-6 * step
-        result = coupling(step, u_free)
+        result = contact(step, u_free, state)
+        state = result.state
         # B u, all points, dense; the patch is asked for a wider zone
         patch = track.patch(X, 0.02)
         P = rail_matrix(patch.x, patch.y, points.x + X, points.y)
@@ -111,43 +120,48 @@ def test_equals_brute_force(scale: float) -> None:
             result.increment, scale * np.linalg.solve(S, result.load), rtol=1e-9, atol=1e-18
         )
         assert result.record["contact_area"] > 0
-        assert np.all(coupling.last.forces >= 0)
+        assert np.all(state.forces >= 0)
 
 
 def test_history_of_the_coupling_does_not_matter() -> None:
     *_, first, S, positions, _, rng = setting()
     *_, second, _, _, _, _ = setting()
     factor = Factor(sp.csr_array(S))
-    first.attach(factor, 1.0)
+    used, state = first.attached(factor, 1.0), first.start()
     u = 1e-6 * rng.standard_normal(N_TRACK + 1)
     u[-1] -= 90e-6
     for step in range(len(positions) - 1):
-        first(step, u * rng.uniform(0.5, 1.5))
-    second.attach(factor, 1.0)
+        state = used(step, u * rng.uniform(0.5, 1.5), state).state
     last = len(positions) - 1
-    a, b = first(last, u), second(last, u)
+    a, b = used(last, u, state), second.attached(factor, 1.0)(last, u, second.start())
     np.testing.assert_allclose(a.load, b.load, rtol=1e-9, atol=1e-6)
+    # asked again, from the same state, it answers the same bit for bit
+    again = used(last, u, state)
+    np.testing.assert_array_equal(again.load, a.load)
+    np.testing.assert_array_equal(again.state.gap, a.state.gap)
 
 
 def test_separation_and_return() -> None:
     *_, coupling, S, _, _, _ = setting()
-    coupling.attach(Factor(sp.csr_array(S)), 1.0)
+    contact = coupling.attached(Factor(sp.csr_array(S)), 1.0)
     down, up = np.zeros(N_TRACK + 1), np.zeros(N_TRACK + 1)
     down[-1], up[-1] = -80e-6, 1e-3
-    before = coupling(0, down).record["contact_force"][0]
-    away = coupling(1, up)
+    touching = contact(0, down, coupling.start())
+    before = touching.record["contact_force"][0]
+    away = contact(1, up, touching.state)
     assert away.record["contact_force"][0] == 0.0
     assert not away.load.any()
-    assert coupling(2, down).record["contact_force"][0] == pytest.approx(before, rel=0.05)
+    again = contact(2, down, away.state)
+    assert again.record["contact_force"][0] == pytest.approx(before, rel=0.05)
 
 
 def test_patch_that_leaves_the_fine_zone_is_an_error() -> None:
     *_, coupling, S, _, _, _ = setting()
-    coupling.attach(Factor(sp.csr_array(S)), 1.0)
+    contact = coupling.attached(Factor(sp.csr_array(S)), 1.0)
     u = np.zeros(N_TRACK + 1)
     u[-1] = -1e-3
     with pytest.raises(
         NumericalError,
         match=r"edge of the finely meshed zone across .* at step 0, .*contact_half_width",
     ):
-        coupling(0, u)
+        contact(0, u, coupling.start())

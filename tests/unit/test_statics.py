@@ -18,14 +18,23 @@ class Ground:
     def __init__(self, gap):
         self.gap = gap
 
-    def attach(self, factor, scale):
-        self.compliance = float(scale * factor.solve(np.ones((1, 1)))[0, 0])
+    accuracy = 1e-11
 
-    def __call__(self, step, u_free):
-        # k (gap + u_free + W f) = -f
-        force = max(0.0, -(self.gap + u_free[0]) / (1 / STIFFNESS + self.compliance))
-        load = np.array([force])
-        return ContactStep(load, self.compliance * load, {"contact_force": load})
+    def start(self):
+        return "before any contact"
+
+    def attached(self, factor, scale):
+        compliance = float(scale * factor.solve(np.ones((1, 1)))[0, 0])
+
+        def contact(step, u_free, state):
+            # step 0 may be asked as often as needed, always from the same state
+            assert (step, state) == (0, "before any contact")
+            # k (gap + u_free + W f) = -f
+            force = max(0.0, -(self.gap + u_free[0]) / (1 / STIFFNESS + compliance))
+            load = np.array([force])
+            return ContactStep(load, compliance * load, {"contact_force": load}, "in contact")
+
+        return contact
 
 
 def free_wheel():
@@ -36,6 +45,7 @@ def free_wheel():
 @pytest.mark.parametrize("gap", [0.0, 0.05e-3, 0.7e-3, 4e-3])
 def test_the_wheel_stands_on_the_ground_however_far_below(gap):
     state = static_start(free_wheel(), Ground(gap), np.array([-LOAD]), np.array([0]))
+    assert state.contact.state == "in contact"
     assert state.contact.record["contact_force"][0] == pytest.approx(LOAD, rel=1e-9)
     assert state.u[0] == pytest.approx(-gap - LOAD / STIFFNESS, rel=1e-9)
 

@@ -1,7 +1,6 @@
 """Energy, impulse and weight balances of whole runs, and no tension ever."""
 
 import dataclasses
-import time
 
 import numpy as np
 import pytest
@@ -11,8 +10,10 @@ from contactstudy.dynamics.energy import energy_balance
 from contactstudy.dynamics.stepper import average_acceleration
 from contactstudy.irregularity import SmoothRail, paper_spectrum, sample_profile
 from contactstudy.solvers.journey import Journey
+from contactstudy.solvers.observers import EachState
+from contactstudy.solvers.passage import Passage
 from contactstudy.solvers.point import point_contact, point_coupling
-from contactstudy.solvers.run import Assembly, run
+from contactstudy.solvers.run import run
 from contactstudy.track.beam import BeamTrack
 from contactstudy.track.model import Track
 from contactstudy.vehicle import wheel_column
@@ -21,27 +22,23 @@ JOURNEY = Journey(6.0, 12.0, time_step=1e-4, fade_in=1.0)
 
 
 def states_of(law, theory, journey=JOURNEY, integrator=None):
-    assembly = Assembly(BeamTrack(Track(length=18.0), theory, 4, True), wheel_column())
-    profile = sample_profile(paper_spectrum(), seed=3)
-    coupling, r = point_coupling(assembly, profile, journey, law)
+    track, profile = BeamTrack(Track(length=18.0), theory, 4, True), paper_spectrum()
+    passage = Passage(track, wheel_column(), sample_profile(profile, seed=3), journey)
     states = []
     result = run(
-        assembly,
-        coupling,
-        journey,
+        passage,
+        point_coupling(passage, law),
         integrator or average_acceleration(),
-        r,
-        setup_began=time.perf_counter(),
-        on_state=states.append,
+        (EachState(states.append),),
     )
-    return assembly, states, result
+    return passage, states, result
 
 
 @pytest.mark.parametrize("theory", ["euler", "timoshenko"])
 @pytest.mark.parametrize("law", [LinearSpring(1e11), HertzSpring(9.25e10)])
 def test_work_equals_kinetic_strain_and_dissipated_energy(law, theory):
-    assembly, states, _ = states_of(law, theory)
-    balance = energy_balance(assembly.system, states)
+    passage, states, _ = states_of(law, theory)
+    balance = energy_balance(passage.system, states)
     scale = sum(abs(e) for e in (balance.kinetic, balance.strain, balance.dissipated))
     print(f"{law} {theory}: {balance}, residual {balance.residual:.1e} J")
     assert balance.dissipated > 0.0
@@ -49,9 +46,9 @@ def test_work_equals_kinetic_strain_and_dissipated_energy(law, theory):
 
 
 def test_impulse_of_the_contact_force_equals_change_of_momentum():
-    assembly, states, result = states_of(LinearSpring(1e9), "euler")
-    vehicle = assembly.vehicle
-    velocity = states[-1].v[assembly.track.n_dofs :]
+    passage, states, result = states_of(LinearSpring(1e9), "euler")
+    vehicle = passage.vehicle
+    velocity = states[-1].v[passage.track.n_dofs :]
     momentum = float(np.ones(3) @ vehicle.mass @ velocity)
     excess = result.contact_force.values - vehicle.static_loads[0]
     impulse = float(np.sum(0.5 * (excess[1:] + excess[:-1])) * JOURNEY.time_step)
@@ -72,26 +69,18 @@ def test_mean_contact_force_is_the_static_load():
 
 def test_supports_carry_the_static_load():
     track = Track(length=18.0, ends="free")
-    assembly = Assembly(BeamTrack(track), wheel_column())
     journey = Journey(9.1, 9.2, time_step=1e-4, fade_in=0.0)
-    coupling, r = point_coupling(assembly, SmoothRail(), journey, HertzSpring(9.25e10))
+    passage = Passage(BeamTrack(track), wheel_column(), SmoothRail(), journey)
+    coupling = point_coupling(passage, HertzSpring(9.25e10))
     states = []
-    run(
-        assembly,
-        coupling,
-        journey,
-        average_acceleration(),
-        r,
-        setup_began=0.0,
-        on_state=states.append,
-    )
+    run(passage, coupling, average_acceleration(), (EachState(states.append),))
     start = states[0]
     # residual of the static equations, on every dof
-    residual = assembly.system.stiffness @ start.u - start.load
-    load = assembly.static_loads[0]
+    residual = passage.system.stiffness @ start.u - start.load
+    load = passage.static_loads[0]
     assert np.abs(residual).max() < 1e-10 * load
     assert not start.v.any() and not start.a.any()
-    ballast, beam = track.support.layer.stiffness, assembly.track
+    ballast, beam = track.support.layer.stiffness, passage.track
     sleepers = np.flatnonzero(beam.mass.diagonal() == track.support.sleeper_mass)
     assert len(sleepers) == track.n_bays + 1
     carried = -ballast * start.u[sleepers].sum()
@@ -105,13 +94,11 @@ def test_no_tension_when_wheels_jump(law, theory):
     profile = sample_profile(paper_spectrum(), seed=1)
     rough = dataclasses.replace(profile, amplitudes=6.0 * profile.amplitudes)
     result = point_contact(
-        Track(),
+        BeamTrack(Track(), theory=theory, element_compliance=True),
         wheel_column(),
         rough,
         Journey(time_step=1e-4),
         law=law,
-        rail_theory=theory,
-        local_compliance=True,
     )
     force = result.contact_force.values
     gap = (result.wheel_displacement - result.rail_displacement - result.irregularity).values

@@ -13,6 +13,7 @@ from contactstudy.contact.laws import HertzSpring, LinearSpring
 from contactstudy.irregularity import HarmonicProfile
 from contactstudy.solvers.journey import Journey
 from contactstudy.solvers.point import point_contact
+from contactstudy.track.beam import BeamTrack
 from contactstudy.track.model import Ballast, DiscreteSupports, GivenRail, Track
 from contactstudy.vehicle import wheel_column
 
@@ -150,7 +151,9 @@ def newton(k_hertz, S, rhs, gap_row, guess, free, r_paper, F):
 def production(law):
     support = DiscreteSupports(SPACING, PAD, PAD_C, 0.0, SLEEPER, Ballast(BALLAST, BALLAST_C))
     track = Track(GivenRail(EI=EI, mass=MASS), support, length=BAYS * SPACING)
-    run = point_contact(track, wheel_column(), ROUGH, JOURNEY, law=law, elements_per_bay=PER_BAY)
+    run = point_contact(
+        BeamTrack(track, elements_per_bay=PER_BAY), wheel_column(), ROUGH, JOURNEY, law=law
+    )
     names = ("contact_force", "wheel_displacement", "wheel_acceleration", "rail_displacement")
     return [run[name].values for name in names]
 

@@ -5,6 +5,7 @@ from functools import cache
 import numpy as np
 import xarray as xr
 
+from contactstudy.contact.surface_contact import SurfaceContact
 from contactstudy.irregularity import paper_spectrum, sample_profile
 from contactstudy.solids.cell import condense
 from contactstudy.solids.recipe import CellRecipe
@@ -30,13 +31,10 @@ def run(quadrature: str, tolerance: float | None, penalty: float = 1e16) -> xr.D
     track, wheel = bodies()
     return surface_contact(
         track,
-        wheel,
+        SurfaceContact(wheel, penalty=penalty, quadrature=quadrature, tolerance=tolerance),
         wheel_column(),
         sample_profile(paper_spectrum(), seed=1),
         Journey(1.2, 2.0, fade_in=0.2),
-        quadrature=quadrature,  # type: ignore[arg-type]
-        tolerance=tolerance,
-        penalty=penalty,
     )
 
 

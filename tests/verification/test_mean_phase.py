@@ -2,10 +2,11 @@
 
 import numpy as np
 
+from contactstudy.contact.surface_contact import SurfaceContact
 from contactstudy.solids.cell import condense
 from contactstudy.solids.recipe import CellRecipe
 from contactstudy.solids.wheel import WheelRecipe, elastic_wheel
-from contactstudy.solvers.surface import geometry_press
+from contactstudy.solvers.at_rest import geometry_press
 from contactstudy.track.model import Track
 from contactstudy.track.solid import SolidTrack, solid_rail
 
@@ -21,7 +22,10 @@ def test_approach_is_the_same_everywhere_in_a_cell() -> None:
     for mean_phase in (False, True):
         on = SolidTrack(track, cell, mean_phase)
         found = np.array(
-            [geometry_press(on, wheel, np.array([70e3]), x=x).approach[0] for x in places]
+            [
+                geometry_press(on, SurfaceContact(wheel), np.array([70e3]), x=x).approach[0]
+                for x in places
+            ]
         )
         ripple[mean_phase] = float(np.ptp(found) / found.mean())
     print(f"ripple of the approach: exact place {ripple[False]:.2%}, mean {ripple[True]:.2%}")

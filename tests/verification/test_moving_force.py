@@ -9,6 +9,7 @@ from contactstudy.contact.laws import MovingForce
 from contactstudy.irregularity import SmoothRail
 from contactstudy.solvers.journey import Journey
 from contactstudy.solvers.point import point_contact
+from contactstudy.track.beam import BeamTrack
 from contactstudy.track.model import GivenRail, Track
 from contactstudy.vehicle import bare_wheel
 
@@ -21,12 +22,11 @@ def midspan(speed, steps=4000):
     track = Track(GivenRail(EI=EI, mass=MASS), support=None, length=LENGTH, ends="pinned")
     journey = Journey(0.0, LENGTH, speed, LENGTH / speed / steps, stations=(0.5 * LENGTH,))
     run = point_contact(
-        track,
+        BeamTrack(track, elements_per_bay=1),
         bare_wheel(1.0, FORCE),
         SmoothRail(),
         journey,
         law=MovingForce(),
-        elements_per_bay=1,
     )
     return run.time.values, -run.station_displacement.values[0]
 

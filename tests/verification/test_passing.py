@@ -12,6 +12,7 @@ from contactstudy.halfspace.hertz import contact_modulus, hertz_contact
 from contactstudy.irregularity import SmoothRail
 from contactstudy.solvers.journey import Journey
 from contactstudy.solvers.point import point_contact
+from contactstudy.track.beam import BeamTrack
 from contactstudy.track.model import DiscreteSupports, Track, WinklerFoundation
 from contactstudy.vehicle import wheel_column
 
@@ -22,14 +23,16 @@ def harmonics(support, theory, elements=4, compliance=True):
     """Amplitudes of wavelengths 0.6/1 ... 0.6/8 m in per cent of the static load."""
     vehicle = wheel_column()
     run = point_contact(
-        Track(support=support),
+        BeamTrack(
+            Track(support=support),
+            theory=theory,
+            elements_per_bay=elements,
+            element_compliance=compliance,
+        ),
         vehicle,
         SmoothRail(),
         Journey(),
         law=HERTZ,
-        rail_theory=theory,
-        elements_per_bay=elements,
-        local_compliance=compliance,
     )
     settled = run.sel(time=slice(0.14, None))
     amplitudes = passing_amplitude(

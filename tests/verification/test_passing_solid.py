@@ -4,6 +4,7 @@ import numpy as np
 
 from contactstudy.compare.passing import passing_amplitude
 from contactstudy.contact.laws import HertzSpring
+from contactstudy.contact.surface_contact import SurfaceContact
 from contactstudy.irregularity import SmoothRail
 from contactstudy.solids.cell import condense
 from contactstudy.solids.recipe import CellRecipe
@@ -11,6 +12,7 @@ from contactstudy.solids.wheel import WheelRecipe, elastic_wheel
 from contactstudy.solvers.journey import Journey
 from contactstudy.solvers.point import point_contact
 from contactstudy.solvers.surface import surface_contact
+from contactstudy.track.beam import BeamTrack
 from contactstudy.track.model import Track
 from contactstudy.track.solid import SolidTrack, solid_rail
 from contactstudy.vehicle import wheel_column
@@ -22,20 +24,18 @@ def test_sleeper_passing_and_cell_passing_at_2_mm():
     journey = Journey(3.0, 15.0)
     solid = surface_contact(
         SolidTrack(track, condense(recipe)),
-        elastic_wheel(WheelRecipe()),
+        SurfaceContact(elastic_wheel(WheelRecipe())),
         wheel_column(),
         SmoothRail(),
         journey,
     )
     beams = {
         theory: point_contact(
-            track,
+            BeamTrack(track, theory=theory, element_compliance=True),
             wheel_column(),
             SmoothRail(),
             journey,
-            rail_theory=theory,
             law=HertzSpring(9.25e10),
-            local_compliance=True,
         )
         for theory in ("timoshenko", "euler")
     }

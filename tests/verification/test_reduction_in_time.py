@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from contactstudy.compare.passing import passing_amplitude
+from contactstudy.contact.surface_contact import SurfaceContact
 from contactstudy.irregularity import SmoothRail, paper_spectrum, sample_profile
 from contactstudy.solids.cell import condense
 from contactstudy.solids.recipe import CellRecipe
@@ -46,7 +47,7 @@ def test_reduced_against_unreduced(support):
     journey = Journey(start=0.48, end=0.72, speed=speed, time_step=step / speed, fade_in=0.1)
     forces = []
     for rail in (UnreducedTrack(track, recipe), SolidTrack(track, condense(recipe), False)):
-        data = surface_contact(rail, wheel, wheel_column(), profile, journey)
+        data = surface_contact(rail, SurfaceContact(wheel), wheel_column(), profile, journey)
         print(f"{rail.n_dofs} dofs: contact force", data.contact_force.values[::12])
         forces.append(data.contact_force.values)
     difference = np.abs(forces[1] - forces[0]) / STATIC
@@ -71,7 +72,7 @@ def test_no_ripple_at_the_cell_length():
         cell = condense(CellRecipe(size=0.004, internal_modes=internal))
         data = surface_contact(
             SolidTrack(track, cell),
-            elastic_wheel(WheelRecipe(size=0.004)),
+            SurfaceContact(elastic_wheel(WheelRecipe(size=0.004))),
             wheel_column(),
             SmoothRail(),
             # 3.67 mm a step. With 4.17 mm (5e-5 s) the ripple of this coarse test mesh, 4 mm,

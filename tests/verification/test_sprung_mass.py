@@ -10,6 +10,7 @@ from contactstudy.contact.laws import LinearSpring, MovingForce
 from contactstudy.irregularity import SmoothRail
 from contactstudy.solvers.journey import Journey
 from contactstudy.solvers.point import point_contact
+from contactstudy.track.beam import BeamTrack
 from contactstudy.track.model import GivenRail, Track
 from contactstudy.vehicle import bare_wheel
 
@@ -22,7 +23,7 @@ def crossing(law):
     track = Track(GivenRail(EI=EI, mass=MASS), support=None, length=LENGTH, ends="pinned")
     journey = Journey(0.0, LENGTH, SPEED, LENGTH / SPEED / 9000, stations=(0.5 * LENGTH,))
     return point_contact(
-        track, bare_wheel(BODY, LOAD), SmoothRail(), journey, law=law, elements_per_bay=1
+        BeamTrack(track, elements_per_bay=1), bare_wheel(BODY, LOAD), SmoothRail(), journey, law=law
     )
 
 

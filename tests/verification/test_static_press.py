@@ -11,6 +11,7 @@ import pytest
 from scipy.optimize import brentq
 from scipy.special import ellipe, ellipk
 
+from contactstudy.contact.augmented import Penalty
 from contactstudy.contact.press import (
     PressCurve,
     press_curve,
@@ -73,7 +74,7 @@ def block(size: float) -> tuple[ContactPoints, np.ndarray]:
 @cache
 def pressed(size: float, penalty: float = 1e16) -> PressCurve:
     points, W = block(size)
-    return press_curve(points, W, LOADS, penalty)
+    return press_curve(points, W, LOADS, Penalty(penalty))
 
 
 def force_errors(size: float, penalty: float = 1e16) -> np.ndarray:

@@ -1,20 +1,23 @@
 """Surface contact: energy and weight balances, no tension ever, one rail at every mesh and step."""
 
 import dataclasses
-import time
 from functools import cache
 
 import numpy as np
 import pytest
 
+from contactstudy.contact.surface_contact import SurfaceContact
 from contactstudy.dynamics.energy import energy_balance
 from contactstudy.dynamics.stepper import average_acceleration
 from contactstudy.irregularity import SmoothRail, paper_spectrum, sample_profile
 from contactstudy.solids.cell import condense
 from contactstudy.solids.recipe import CellRecipe
 from contactstudy.solids.wheel import WheelRecipe, elastic_wheel
+from contactstudy.solvers.instants import Instants
 from contactstudy.solvers.journey import Journey
-from contactstudy.solvers.run import Assembly, run
+from contactstudy.solvers.observers import EachState
+from contactstudy.solvers.passage import Passage
+from contactstudy.solvers.run import run
 from contactstudy.solvers.surface import surface_contact, surface_coupling
 from contactstudy.track.model import Track
 from contactstudy.track.solid import SolidTrack, solid_rail
@@ -43,38 +46,34 @@ def rough(factor=1.0):
 
 def test_work_equals_kinetic_strain_and_dissipated_energy():
     on = track(ends="free")
-    assembly = Assembly(on, wheel_column())
     journey = Journey(3.0, 7.0, time_step=1e-4, fade_in=1.0)
-    coupling, r = surface_coupling(assembly, wheel(), rough(), journey)
+    passage = Passage(on, wheel_column(), rough(), journey)
+    coupling = surface_coupling(passage, SurfaceContact(wheel()))
     states = []
-    run(
-        assembly,
-        coupling,
-        journey,
-        average_acceleration(),
-        r,
-        setup_began=time.perf_counter(),
-        on_state=states.append,
-    )
-    balance = energy_balance(assembly.system, states)
+    run(passage, coupling, average_acceleration(), (EachState(states.append),))
+    balance = energy_balance(passage.system, states)
     scale = sum(abs(e) for e in (balance.kinetic, balance.strain, balance.dissipated))
     print(f"{balance}, residual {balance.residual:.1e} J")
     assert balance.dissipated > 0.0
     assert abs(balance.residual) < 1e-9 * scale
     # the static start is an equilibrium on every dof, with the weight on the ballast
     start, described = states[0], on.track
-    residual = assembly.system.stiffness @ start.u - start.load
-    assert np.abs(residual).max() < 1e-9 * assembly.static_loads[0]
+    residual = passage.system.stiffness @ start.u - start.load
+    assert np.abs(residual).max() < 1e-9 * passage.static_loads[0]
     sleepers = np.flatnonzero(on.mass.diagonal() == described.support.sleeper_mass)
     assert len(sleepers) == described.n_bays + 1
     carried = -described.support.layer.stiffness * start.u[sleepers].sum()
-    print(f"static load {assembly.static_loads[0]:.3f} N, carried by the ballast {carried:.3f} N")
-    assert carried == pytest.approx(assembly.static_loads[0], rel=1e-6)
+    print(f"static load {passage.static_loads[0]:.3f} N, carried by the ballast {carried:.3f} N")
+    assert carried == pytest.approx(passage.static_loads[0], rel=1e-6)
 
 
 def test_mean_contact_force_is_the_static_load():
     data = surface_contact(
-        track(), wheel(), wheel_column(), SmoothRail(), Journey(3.0, 9.0, time_step=1e-4)
+        track(),
+        SurfaceContact(wheel()),
+        wheel_column(),
+        SmoothRail(),
+        Journey(3.0, 9.0, time_step=1e-4),
     )
     static = data.attrs["static_load"][0]
     # five whole bays; mean force = weight + mean inertia force of the column
@@ -87,11 +86,11 @@ def test_mean_contact_force_is_the_static_load():
 def test_no_tension_when_the_wheel_jumps():
     data = surface_contact(
         track(),
-        wheel(),
+        SurfaceContact(wheel()),
         wheel_column(),
         rough(6.0),
         Journey(3.0, 9.0, time_step=1e-4, fade_in=1.0),
-        pressure_at=(4.0, 5.0, 6.0, 7.0),
+        observers=(Instants((4.0, 5.0, 6.0, 7.0)),),
     )
     force, area = data.contact_force.values, data.contact_area.values
     lost = force == 0.0
@@ -105,7 +104,7 @@ def test_the_rail_is_the_same_at_every_mesh_and_step():
     runs = [
         surface_contact(
             track(size),
-            wheel(),
+            SurfaceContact(wheel()),
             wheel_column(),
             rough(),
             Journey(3.0, 4.0, time_step=dt, fade_in=0.5),

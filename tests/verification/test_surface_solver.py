@@ -8,15 +8,20 @@ import xarray as xr
 
 from contactstudy.contact.laws import LinearSpring
 from contactstudy.contact.press import tangent_stiffness
+from contactstudy.contact.surface_contact import SurfaceContact
 from contactstudy.dynamics.stepper import generalised_alpha
 from contactstudy.exceptions import InputError
 from contactstudy.irregularity import HarmonicProfile, SmoothRail
 from contactstudy.solids.cell import RailCell, condense
 from contactstudy.solids.recipe import CellRecipe
-from contactstudy.solids.wheel import WheelFlexibility, WheelRecipe, elastic_wheel
+from contactstudy.solids.wheel import WheelFlexibility, WheelRecipe, elastic_wheel, rigid_wheel
+from contactstudy.solvers.at_rest import geometry_press
+from contactstudy.solvers.frames import Frames
+from contactstudy.solvers.instants import Instants
 from contactstudy.solvers.journey import Journey
 from contactstudy.solvers.point import point_contact
-from contactstudy.solvers.surface import geometry_press, surface_contact
+from contactstudy.solvers.surface import surface_contact
+from contactstudy.track.beam import BeamTrack
 from contactstudy.track.model import Track, WinklerFoundation
 from contactstudy.track.solid import SolidTrack, solid_rail
 from contactstudy.vehicle import bare_wheel, train, wheel_column
@@ -46,7 +51,7 @@ def track(winkler: bool = False) -> SolidTrack:
 def smooth_run(**changes: object) -> xr.Dataset:
     journey = Journey(1.2, 1.6, time_step=1e-4, fade_in=0.0)
     arguments: dict = {"irregularity": SmoothRail(), "journey": journey}
-    return surface_contact(track(), wheel(), wheel_column(), **(arguments | changes))
+    return surface_contact(track(), SurfaceContact(wheel()), wheel_column(), **arguments | changes)
 
 
 def test_static_start_is_the_press() -> None:
@@ -54,7 +59,7 @@ def test_static_start_is_the_press() -> None:
     load = float(data.attrs["static_load"][0])
     assert float(data.contact_force[0]) == pytest.approx(load, rel=1e-9)
     approach = float(data.rail_displacement[0] - data.wheel_displacement[0])
-    pressed = geometry_press(track(), wheel(), np.array([load]), x=1.2).approach[0]
+    pressed = geometry_press(track(), SurfaceContact(wheel()), np.array([load]), x=1.2).approach[0]
     print(f"approach hub to centre line: run {approach:.9e} m, press {pressed:.9e} m")
     assert approach == pytest.approx(pressed, rel=1e-6)
 
@@ -62,9 +67,9 @@ def test_static_start_is_the_press() -> None:
 def test_press_does_not_depend_on_the_track() -> None:
     # supports and position are taken out with the centre line; what is left is local
     loads = np.array([40e3, 80e3])
-    base = geometry_press(track(), wheel(), loads).approach
-    next_bay = geometry_press(track(), wheel(), loads, x=2.1).approach
-    uniform = geometry_press(track(winkler=True), wheel(), loads).approach
+    base = geometry_press(track(), SurfaceContact(wheel()), loads).approach
+    next_bay = geometry_press(track(), SurfaceContact(wheel()), loads, x=2.1).approach
+    uniform = geometry_press(track(winkler=True), SurfaceContact(wheel()), loads).approach
     print("approach", base, "next bay", next_bay, "uniform foundation", uniform, "m")
     np.testing.assert_allclose(next_bay, base, rtol=1e-3)
     # the uniform bed pushes on the foot right below: the web is compressed 1 um more
@@ -77,8 +82,10 @@ def test_small_roughness_is_the_linear_spring_on_the_same_rail() -> None:
     profile = HarmonicProfile(np.array([2e-6]), np.array([2 * np.pi / wavelength]), np.zeros(1))
     journey = Journey(1.5, 4.5, time_step=5e-5, fade_in=0.6)
     vehicle, on = bare_wheel(890.0, load), track(winkler=True)
-    k = tangent_stiffness(geometry_press(on, wheel(), load * np.linspace(0.6, 1.4, 9)), load)
-    surface = surface_contact(on, wheel(), vehicle, profile, journey)
+    k = tangent_stiffness(
+        geometry_press(on, SurfaceContact(wheel()), load * np.linspace(0.6, 1.4, 9)), load
+    )
+    surface = surface_contact(on, SurfaceContact(wheel()), vehicle, profile, journey)
     point = point_contact(on, vehicle, profile, journey, law=LinearSpring(k))
     late = surface.position.values > 2.4
     x = surface.position.values[late]
@@ -90,9 +97,8 @@ def test_small_roughness_is_the_linear_spring_on_the_same_rail() -> None:
 
 
 def test_pressure_field_carries_the_force() -> None:
-    data = smooth_run(
-        pressure_at=(1.3, 1.5), frames_at=(1.3, 1.4, 1.5), integrator=generalised_alpha(0.8)
-    )
+    watching = Instants((1.3, 1.5)), Frames((1.3, 1.4, 1.5))
+    data = smooth_run(observers=watching, integrator=generalised_alpha(0.8))
     assert data.pressure.dims == ("instant", "point")
     np.testing.assert_allclose(data.instant_position, [1.3, 1.5], atol=0.005)
     for k in range(2):
@@ -119,19 +125,30 @@ def test_pressure_field_carries_the_force() -> None:
 
 def test_wrong_arguments_are_refused_together() -> None:
     two = train([wheel_column(), wheel_column()], [0.0, -0.5])
+    other = SurfaceContact(rigid_wheel(WheelRecipe(size=0.004, rail_profile="UIC60-Manchester")))
+    journey = Journey(1.2, 1.6, fade_in=0.0)
     with pytest.raises(InputError) as caught:
-        surface_contact(
-            track(),
-            wheel(),
-            two,
-            SmoothRail(),
-            Journey(1.2, 1.6, fade_in=0.0),
-            penalty=-1.0,
-            pressure_at=(3.0,),
-        )
+        surface_contact(track(), other, two, SmoothRail(), journey, observers=(Instants((3.0,)),))
     text = str(caught.value)
-    for part in ("2 wheels", "penalty", "pressure_at = 3"):
+    for part in ("2 wheels", "made for rail UIC60-Manchester", "pressure_at = 3"):
         assert part in text
+    with pytest.raises(InputError, match=r"penalty = -1"):
+        SurfaceContact(wheel(), penalty=-1.0)
+
+
+def test_a_track_of_the_wrong_kind_is_refused_with_the_right_one() -> None:
+    rest = wheel_column(), SmoothRail(), Journey(1.2, 1.6, fade_in=0.0)
+    described, contact = track().track, SurfaceContact(wheel())
+    for wrong in (described, BeamTrack(described)):
+        name = type(wrong).__name__
+        with pytest.raises(InputError, match=f"a {name} has no meshed rail; give a SolidTrack"):
+            surface_contact(wrong, contact, *rest)  # type: ignore[arg-type]
+    for wrong in (solid_rail(COARSE), contact):
+        name = type(wrong).__name__
+        with pytest.raises(InputError, match=f"a {name} is no track; give a Track, a BeamTrack"):
+            point_contact(wrong, *rest, law=LinearSpring(1e9))  # type: ignore[arg-type]
+    with pytest.raises(InputError, match="only surface contact"):
+        point_contact(described, *rest, law=LinearSpring(1e9), observers=(Frames((1.3,)),))
 
 
 @pytest.mark.slow
@@ -142,7 +159,7 @@ def test_no_ripple_at_the_cell_length() -> None:
     on = SolidTrack(Track(solid_rail(recipe), support, length=24.0, ends="free"), condense(recipe))
     data = surface_contact(
         on,
-        elastic_wheel(WheelRecipe()),
+        SurfaceContact(elastic_wheel(WheelRecipe())),
         bare_wheel(890.0, 67e3),
         SmoothRail(),
         Journey(8.0, 14.0, fade_in=0.0),

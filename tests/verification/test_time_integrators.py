@@ -11,6 +11,7 @@ from contactstudy.contact.laws import HertzSpring, LinearSpring, RigidContact
 from contactstudy.dynamics.banded import LinearSystem
 from contactstudy.dynamics.stepper import (
     State,
+    Steps,
     average_acceleration,
     generalised_alpha,
     march,
@@ -19,6 +20,7 @@ from contactstudy.dynamics.stepper import (
 from contactstudy.irregularity import HarmonicProfile
 from contactstudy.solvers.journey import Journey
 from contactstudy.solvers.point import point_contact
+from contactstudy.track.beam import BeamTrack
 from contactstudy.track.model import Track, WinklerFoundation
 from contactstudy.vehicle import wheel_column
 
@@ -52,7 +54,12 @@ def error_of_oscillator(integrator, dt):
     start = State(0, 0.0, rest, rest, load, load)
     n = round(t / dt)
     *_, last = march(
-        system, None, start, dt, n, integrator, lambda k: np.full(2, math.cos(drive * k * dt))
+        system,
+        None,
+        start,
+        Steps(dt, n),
+        integrator,
+        lambda k: np.full(2, math.cos(drive * k * dt)),
     )
     return np.abs(last.u - exact).max()
 
@@ -87,12 +94,11 @@ def test_point_solver_is_second_order_in_time(case):
     for refinement, dt in enumerate((4e-5, 2e-5, 1e-5, 5e-6)):
         journey = Journey(3.0, 5.4, 80.0, dt, fade_in=1.2)  # the end lies on a step of every dt
         run = point_contact(
-            track,
+            BeamTrack(track, elements_per_bay=1),
             wheel_column(),
             profile,
             journey,
             law=law,
-            elements_per_bay=1,
             integrator=integrator,
         )
         runs.append(run.isel(time=slice(None, None, 2**refinement)))

@@ -1,7 +1,6 @@
 """The wheel's elastic modes in the time domain: slow limit, impulse, energy, stiff limit."""
 
 import dataclasses
-import time
 from functools import cache
 
 import numpy as np
@@ -9,9 +8,10 @@ import pytest
 import scipy.linalg
 import scipy.sparse as sp
 
+from contactstudy.contact.surface_contact import SurfaceContact
 from contactstudy.dynamics.banded import LinearSystem
 from contactstudy.dynamics.energy import energy_balance
-from contactstudy.dynamics.stepper import State, average_acceleration, march
+from contactstudy.dynamics.stepper import State, Steps, average_acceleration, march
 from contactstudy.exceptions import InputError
 from contactstudy.irregularity import HarmonicProfile, SmoothRail
 from contactstudy.solids.cell import RailCell, condense
@@ -19,7 +19,9 @@ from contactstudy.solids.recipe import CellRecipe
 from contactstudy.solids.wheel import WheelFlexibility, WheelRecipe, elastic_wheel, rigid_wheel
 from contactstudy.solids.wheel_modes import ModesRecipe, WheelModes, wheel_modes
 from contactstudy.solvers.journey import Journey
-from contactstudy.solvers.run import Assembly, run
+from contactstudy.solvers.observers import EachState
+from contactstudy.solvers.passage import Passage
+from contactstudy.solvers.run import run
 from contactstudy.solvers.surface import surface_contact, surface_coupling
 from contactstudy.track.model import Track
 from contactstudy.track.solid import SolidTrack, solid_rail
@@ -61,7 +63,7 @@ def test_slow_excitation_gives_the_quasi_static_wheel() -> None:
     journey = Journey(1.2, 3.2, speed=20.0, time_step=5e-4, fade_in=0.5)
     profile = rough(2e-4, 0.8)
     runs = [
-        surface_contact(track(), wheel(), wheel_column(), profile, journey, modes=m)
+        surface_contact(track(), SurfaceContact(wheel(), modes=m), wheel_column(), profile, journey)
         for m in (None, modes())
     ]
     still, modal = (d.contact_force.values for d in runs)
@@ -93,7 +95,11 @@ def test_modes_without_inertia_are_the_quasi_static_wheel() -> None:
     profile, journey = rough(5e-5, 0.1), Journey(1.2, 1.8, time_step=5e-5, fade_in=0.2)
     still, modal, inert = (
         surface_contact(
-            track(), wheel(), wheel_column(), profile, journey, modes=m, wheel_damping=0.5
+            track(),
+            SurfaceContact(wheel(), modes=m, wheel_damping=0.5),
+            wheel_column(),
+            profile,
+            journey,
         ).contact_force.values
         for m in (None, modes(), light)
     )
@@ -109,38 +115,30 @@ def test_modes_of_a_stiff_wheel_are_a_rigid_wheel() -> None:
     stiff = dataclasses.replace(
         modes(), frequencies=1e4 * modes().frequencies, recipe=modes().recipe
     )
-    plain = surface_contact(track(), rigid, wheel_column(), profile, journey)
-    modal = surface_contact(track(), rigid, wheel_column(), profile, journey, modes=stiff)
+    plain = surface_contact(track(), SurfaceContact(rigid), wheel_column(), profile, journey)
+    modal = surface_contact(
+        track(), SurfaceContact(rigid, modes=stiff), wheel_column(), profile, journey
+    )
     difference = np.abs(modal.contact_force - plain.contact_force).max()
     assert float(difference) < 1e-5 * np.ptp(plain.contact_force.values)
 
 
 def test_work_equals_kinetic_strain_and_dissipated_energy() -> None:
-    vehicle = with_wheel_modes(
-        wheel_column(), modes().frequencies, modes().participation, damping=0.01
-    )
-    assembly = Assembly(track("free"), vehicle)
+    contact = SurfaceContact(wheel(), modes=modes(), wheel_damping=0.01)
     journey = Journey(1.2, 2.2, time_step=5e-5, fade_in=0.2)
-    coupling, r = surface_coupling(assembly, wheel(), rough(5e-5, 0.08), journey, modes=modes())
+    passage = Passage(track("free"), contact.on(wheel_column()), rough(5e-5, 0.08), journey)
+    coupling = surface_coupling(passage, contact)
     states: list = []
-    run(
-        assembly,
-        coupling,
-        journey,
-        average_acceleration(),
-        r,
-        setup_began=time.perf_counter(),
-        on_state=states.append,
-    )
-    balance = energy_balance(assembly.system, states)
+    run(passage, coupling, average_acceleration(), (EachState(states.append),))
+    balance = energy_balance(passage.system, states)
     scale = sum(abs(e) for e in (balance.kinetic, balance.strain, balance.dissipated))
     print(f"{balance}, residual {balance.residual:.1e} J")
     assert balance.dissipated > 0.0
     assert abs(balance.residual) < 1e-9 * scale
     # contact forces do the same work on both sides, so the wheel's centre of mass follows
     start = states[0]
-    residual = assembly.system.stiffness @ start.u - start.load
-    assert np.abs(residual).max() < 1e-9 * assembly.static_loads[0]
+    residual = passage.system.stiffness @ start.u - start.load
+    assert np.abs(residual).max() < 1e-9 * passage.static_loads[0]
 
 
 def test_free_wheel_after_an_impulse() -> None:
@@ -160,7 +158,7 @@ def test_free_wheel_after_an_impulse() -> None:
     for dt in (2e-6, 1e-6):
         n = round(2e-3 / dt)
         start = State(0, 0.0, rest, v0, rest, rest)
-        states = list(march(system, None, start, dt, n, average_acceleration(), rest))
+        states = list(march(system, None, start, Steps(dt, n), average_acceleration(), rest))
         t = np.array([s.time for s in states])[:, None]
         exact = np.where(omega < 1.0, t, np.sin(omega * t) / np.maximum(omega, 1.0)) @ share
         errors.append(np.abs(np.array([push @ s.u for s in states]) - exact).max())
@@ -175,11 +173,10 @@ def test_a_wheel_too_light_for_its_modes_is_refused() -> None:
     with pytest.raises(InputError, match="wheel_mass"):
         surface_contact(
             track(),
-            wheel(),
+            SurfaceContact(wheel(), modes=modes()),
             bare_wheel(0.9 * moved, 60e3),
             SmoothRail(),
             Journey(1.2, 1.6, time_step=1e-4, fade_in=0.0),
-            modes=modes(),
         )
     with pytest.raises(InputError, match="wheel_damping"):
         with_wheel_modes(wheel_column(), modes().frequencies, modes().participation, -0.1)

@@ -8,6 +8,7 @@ import pytest
 import skfem
 from skfem.helpers import dot, grad
 
+from contactstudy.contact.surface_contact import SurfaceContact
 from contactstudy.dynamics.banded import Factor
 from contactstudy.geometry.placement import Geometry
 from contactstudy.geometry.pose import Pose
@@ -172,11 +173,10 @@ def test_s1002_rolls_on_an_inclined_rail():
     vehicle = wheel_column()
     data = surface_contact(
         track,
-        wheel,
+        SurfaceContact(wheel, geometry=geometry),
         vehicle,
         lambda x: np.zeros_like(x),
         Journey(start=2.0, end=4.0, speed=50.0, time_step=1e-4, fade_in=0.0),
-        geometry=geometry,
     )
     load, force = vehicle.static_loads[0], data["contact_force"].values
     ripple = np.abs(force[100:] / load - 1).max()

@@ -6,20 +6,19 @@ import numpy as np
 
 from contactstudy.arrays import Array
 from contactstudy.contact.groups import contact_area
+from contactstudy.contact.surface_contact import SurfaceContact
 from contactstudy.export.press_mesh import PressMesh
 from contactstudy.geometry.placement import Geometry
-from contactstudy.geometry.tread import wheel_points
 from contactstudy.solids.wheel import WheelFlexibility
-from contactstudy.solvers.surface import geometry_press
-from contactstudy.track.solid import SolidTrack
-from contactstudy.track.unreduced import UnreducedTrack
+from contactstudy.solvers.at_rest import geometry_press
+from contactstudy.track.meshed import MeshedTrack
 from contactstudy.verification.cases.flat_press import FacetPress
 from contactstudy.verification.cases.run_calculix import CalculixRun
 from contactstudy.verification.check import Check, ResultTable
 
 
 def smooth_press(
-    track: SolidTrack | UnreducedTrack,
+    track: MeshedTrack,
     wheel: WheelFlexibility,
     load: float,
     penalty: float,
@@ -31,8 +30,8 @@ def smooth_press(
     Parameters are those of `contactstudy.verification.cases.flat_press.flat_press`.
     """
     geometry = geometry or Geometry.of(wheel.recipe)
-    points = wheel_points(wheel, "gauss", geometry)
-    curve = geometry_press(track, wheel, np.array([load]), penalty, x, geometry=geometry)
+    contact = SurfaceContact(wheel, geometry, penalty=penalty)
+    points, curve = contact.points, geometry_press(track, contact, np.array([load]), x)
     solution = curve.solutions[0]
     shape = len(wheel.x) - 1, 2, len(wheel.y) - 1, 2
     force, area = (

@@ -12,6 +12,7 @@ from contactstudy.solids.bodies import rail_body, wheel_body
 from contactstudy.solids.cache import cached
 from contactstudy.solids.recipe import CellRecipe
 from contactstudy.solids.wheel_recipe import WheelRecipe
+from contactstudy.track.meshed import MeshedTrack
 from contactstudy.track.model import Track
 from contactstudy.track.solid import SolidTrack, solid_rail
 from contactstudy.track.unreduced import UnreducedTrack
@@ -59,7 +60,7 @@ class _Model:
     reduced: bool
 
     @property
-    def track(self) -> SolidTrack | UnreducedTrack:
+    def track(self) -> MeshedTrack:
         """The short clamped rail, without supports."""
         rail = Track(rail=solid_rail(self.cell), length=self.length, support=None)
         if self.reduced:

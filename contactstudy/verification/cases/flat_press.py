@@ -14,8 +14,7 @@ from contactstudy.contact.complementarity import press
 from contactstudy.dynamics.banded import Factor
 from contactstudy.geometry.placement import Geometry
 from contactstudy.solids.wheel import WheelFlexibility
-from contactstudy.track.solid import SolidTrack
-from contactstudy.track.unreduced import UnreducedTrack
+from contactstudy.track.meshed import MeshedTrack
 from contactstudy.verification.cases.flat_points import flat_points
 
 
@@ -42,7 +41,7 @@ class FacetPress:
 
 
 def flat_press(
-    track: SolidTrack | UnreducedTrack,
+    track: MeshedTrack,
     wheel: WheelFlexibility,
     load: float,
     penalty: float,
@@ -54,7 +53,7 @@ def flat_press(
 
     Parameters
     ----------
-    track : SolidTrack or UnreducedTrack
+    track : MeshedTrack
         With clamped ends and without supports: the approach is measured from the ends.
     wheel : WheelFlexibility
     load : float

@@ -6,7 +6,6 @@ import numpy as np
 
 from contactstudy.arrays import Array
 from contactstudy.contact.complementarity import press
-from contactstudy.contact.press import penalty_compliance
 from contactstudy.halfspace.hertz import contact_modulus, hertz_contact
 from contactstudy.halfspace.love import influence_matrix
 from contactstudy.plot.curves import Plot, curve
@@ -69,8 +68,9 @@ def real_bodies(mesh_size: float = 0.002) -> tuple[Array, Array]:
     study = Study(name="filter", title="Filter", runs={"surface": SurfaceRun()})
     solid = study.solid.model_copy(update={"mesh_size": mesh_size})
     study = Study(name="filter", title="Filter", solid=solid, runs=study.runs)
-    at = bodies_at_rest(build.solid_track(study, build.track(study)), build.wheel(study))
-    M = at.flexibility + np.diag(penalty_compliance(at.points, study.solid.penalty))
+    contact = build.surface_contact(study)
+    at = bodies_at_rest(build.solid_track(study, build.track(study)), contact)
+    M = at.flexibility + np.diag(contact.enforcement.compliance(at.points.area))
     normal = at.points.normal_z
     pressed = press(M, at.points.gap, normal, LOAD)
     return load_weights(M, normal, pressed), at.points.x_of_points

@@ -8,9 +8,9 @@ from functools import cache
 import numpy as np
 
 from contactstudy.arrays import Array, BoolArray
+from contactstudy.contact.augmented import Penalty
 from contactstudy.contact.complementarity import PatchForces, contact_forces, press
 from contactstudy.contact.groups import contact_area
-from contactstudy.contact.press import penalty_compliance
 from contactstudy.geometry.interpolation import SplineLine, grid_rows
 from contactstudy.geometry.points import ContactPoints
 from contactstudy.geometry.quadrature import Quadrature, grid_facets, point_line
@@ -79,13 +79,13 @@ class Blocks:
 
     def press(self, load: float, penalty: float) -> BlockPress:
         """Press with a resultant in N."""
-        M = self.flexibility + np.diag(penalty_compliance(self.points, penalty))
+        M = self.flexibility + np.diag(Penalty(penalty).compliance(self.points.area))
         solution = press(M, self.points.gap, self.points.normal_z, load)
         return self._described(solution, load, solution.approach)
 
     def crush(self, approach: float, penalty: float) -> BlockPress:
         """Press by an approach in m."""
-        M = self.flexibility + np.diag(penalty_compliance(self.points, penalty))
+        M = self.flexibility + np.diag(Penalty(penalty).compliance(self.points.area))
         solution = contact_forces(M, self.points.gap - approach)
         return self._described(solution, float(solution.forces.sum()), approach)
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from contactstudy.arrays import Array
+from contactstudy.contact.surface_contact import SurfaceContact
 from contactstudy.irregularity.estimate import ThirdOctaves, third_octave_levels
 from contactstudy.irregularity.limit import iso_3095_profile
 from contactstudy.plot.curves import Plot, curve
@@ -58,7 +59,7 @@ def _passage(support: Support) -> _Passage:
     forces, dofs = [], []
     # both rails have the mesh's own phase under the wheel (`mean_phase` is off)
     for rail in (SolidTrack(track, condense(recipe), False), UnreducedTrack(track, recipe)):
-        data = surface_contact(rail, wheel, wheel_column(), profile, journey)
+        data = surface_contact(rail, SurfaceContact(wheel), wheel_column(), profile, journey)
         forces.append(np.asarray(data.contact_force.values, dtype=float))
         dofs.append(rail.n_dofs)
     static = float(wheel_column().static_loads[0])

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from contactstudy.contact.groups import contact_area
+from contactstudy.contact.surface_contact import SurfaceContact
 from contactstudy.geometry.placement import Geometry
-from contactstudy.geometry.tread import wheel_points
 from contactstudy.halfspace.hertz import contact_modulus
 from contactstudy.halfspace.patches import WheelPress, press_wheel
-from contactstudy.solvers.surface import geometry_press
+from contactstudy.solvers.at_rest import geometry_press
 from contactstudy.study.kinds.passage import build
 from contactstudy.study.kinds.passage.placing import geometry
 from contactstudy.study.kinds.passage.schema import Study
@@ -44,8 +44,8 @@ def solid_press() -> CaseResult:
     exact = [_half_space(study, placed, float(load)) for load in LOADS]
     wheel = build.wheel(study)
     track = build.solid_track(study, build.track(study))
-    curve = geometry_press(track, wheel, LOADS, study.solid.penalty, geometry=placed)
-    points = wheel_points(wheel, "gauss", placed)
+    contact = SurfaceContact(wheel, placed, penalty=study.solid.penalty)
+    curve, points = geometry_press(track, contact, LOADS), contact.points
     # delta_solid = delta_half-space + c F
     far = (curve.approach[-1] - exact[-1].travel) / LOADS[-1]
     checks: list[Check] = []

@@ -9,6 +9,7 @@ import numpy as np
 
 from contactstudy.contact.laws import ContactLaw, HertzSpring, LinearSpring, RigidContact
 from contactstudy.contact.press import tangent_stiffness
+from contactstudy.contact.surface_contact import SurfaceContact
 from contactstudy.dynamics import integrators
 from contactstudy.halfspace.hertz import HertzContact, contact_modulus, hertz_contact
 from contactstudy.profiles.wheel_body import wheel_dimensions
@@ -18,12 +19,15 @@ from contactstudy.solids.recipe import CellRecipe
 from contactstudy.solids.wheel import WheelFlexibility, WheelRecipe, rigid_wheel
 from contactstudy.solids.wheel_modes import ModesRecipe, WheelModes
 from contactstudy.solids.wheel_recipe import FAR_STEP, FAR_STEP_OF_MODES
+from contactstudy.solvers.at_rest import geometry_press
 from contactstudy.solvers.journey import Journey
-from contactstudy.solvers.surface import PRESS_LOADS, geometry_press
+from contactstudy.solvers.surface import PRESS_LOADS
 from contactstudy.study.kinds.passage.placing import contact_zone, geometry
 from contactstudy.study.kinds.passage.runs import PointRun, RunTable
 from contactstudy.study.kinds.passage.schema import Study
 from contactstudy.study.kinds.passage.vehicles import vehicle
+from contactstudy.track.beam import BeamTrack
+from contactstudy.track.discrete import DiscreteTrack
 from contactstudy.track.model import (
     Ballast,
     DiscreteSupports,
@@ -138,12 +142,39 @@ def solid_track(study: Study, described: Track) -> SolidTrack:
     return SolidTrack(described, cached(rail_body(recipe(study))))
 
 
+def point_track(study: Study, table: PointRun, described: Track) -> DiscreteTrack:
+    """The track of a point run: on a beam, or on its meshed rail."""
+    if table.rail == "solid":
+        return solid_track(study, described)
+    return BeamTrack(
+        described,
+        table.rail,
+        table.elements_per_bay,
+        table.local_compliance,
+        table.direction,
+    )
+
+
 def wheel(study: Study, run: str | None = None) -> WheelFlexibility:
     """The meshed wheel of a run or of the study, condensed or taken from the cache."""
     made = wheel_recipe(study)
     if (study.wheel(run) if run else study.solid.wheel) == "rigid":
         return rigid_wheel(made)
     return cached(wheel_body(made))
+
+
+def surface_contact(study: Study, run: str | None = None) -> SurfaceContact:
+    """The wheel of a run, or of the study without modes, in contact with the rail."""
+    solid = study.solid
+    return SurfaceContact(
+        wheel(study, run),
+        geometry(study),
+        modes(study, run) if run else None,
+        wheel_damping=solid.wheel_damping,
+        penalty=solid.penalty,
+        quadrature=solid.contact_points,
+        tolerance=solid.tolerance,
+    )
 
 
 def modes_recipe(study: Study) -> ModesRecipe:
@@ -209,16 +240,7 @@ def pressed_stiffness(study: Study, described: Track) -> float:
     """Tangent stiffness in N/m of the study's meshed wheel on its meshed rail, at static load."""
     load = float(vehicle(study).static_loads[0])
     loads = np.asarray(PRESS_LOADS) * load
-    solid = study.solid
-    curve = geometry_press(
-        solid_track(study, described),
-        wheel(study),
-        loads,
-        solid.penalty,
-        quadrature=solid.contact_points,
-        tolerance=solid.tolerance,
-        geometry=geometry(study),
-    )
+    curve = geometry_press(solid_track(study, described), surface_contact(study), loads)
     return tangent_stiffness(curve, load)
 
 

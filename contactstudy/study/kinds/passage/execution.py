@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING, Any
 
 from contactstudy.executor import Progress
 from contactstudy.solids.cache import Body, cached
+from contactstudy.solvers import observers
+from contactstudy.solvers.observers import Observer
 from contactstudy.study.kinds.passage import build
-from contactstudy.study.kinds.passage.placing import geometry
 from contactstudy.study.kinds.passage.roughness import irregularity_of
 from contactstudy.study.kinds.passage.runs import PointRun, SurfaceRun
 from contactstudy.study.kinds.passage.schema import Study
@@ -39,40 +40,38 @@ def _point(study: Study, run: str, table: PointRun, progress: Progress | None) -
 
     track = build.track(study)
     return point_contact(
-        build.solid_track(study, track) if table.rail == "solid" else track,
+        build.point_track(study, table, track),
         vehicle(study),
         irregularity_of(study, table.irregularity == "smooth", table.direction),
         build.journey(study, run),
-        rail_theory="timoshenko" if table.rail == "timoshenko" else "euler",
-        elements_per_bay=table.elements_per_bay,
-        local_compliance=table.local_compliance,
         law=build.contact_law(study, run, track),
-        direction=table.direction,
+        observers=_reports(progress),
         integrator=build.integrator(table),
-        progress=progress,
     )
 
 
 def _surface(study: Study, run: str, table: SurfaceRun, progress: Progress | None) -> xr.Dataset:
+    from contactstudy.solvers.frames import Frames
+    from contactstudy.solvers.instants import Instants
     from contactstudy.solvers.surface import surface_contact
 
     return surface_contact(
         build.solid_track(study, build.track(study)),
-        build.wheel(study, run),
+        build.surface_contact(study, run),
         vehicle(study),
         irregularity_of(study, table.irregularity == "smooth"),
         build.journey(study, run),
-        geometry=geometry(study),
-        modes=build.modes(study, run),
-        wheel_damping=study.solid.wheel_damping,
-        penalty=study.solid.penalty,
-        quadrature=study.solid.contact_points,
-        tolerance=study.solid.tolerance,
-        pressure_at=study.solid.pressure_at,
-        frames_at=build.frames_at(study),
+        observers=(
+            *_reports(progress),
+            Instants(study.solid.pressure_at),
+            Frames(build.frames_at(study)),
+        ),
         integrator=build.integrator(table),
-        progress=progress,
     )
+
+
+def _reports(progress: Progress | None) -> tuple[Observer, ...]:
+    return () if progress is None else (observers.Progress(progress),)
 
 
 def condense_body(body: Body[Any], progress: Progress | None = None) -> None:

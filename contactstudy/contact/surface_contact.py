@@ -1,0 +1,117 @@
+"""What a surface contact is: a meshed wheel, its place on the rail, and how contact is enforced."""
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+
+from contactstudy.contact.augmented import PENALTY, AugmentedLagrangian, Enforcement, Penalty
+from contactstudy.contact.moving_wheel import MovingWheel
+from contactstudy.geometry.placement import Geometry
+from contactstudy.geometry.points import ContactPoints
+from contactstudy.geometry.quadrature import Quadrature
+from contactstudy.geometry.search import CandidateList
+from contactstudy.geometry.tread import candidate_list, mesh_problems, wheel_points
+from contactstudy.solids.wheel import WheelFlexibility
+from contactstudy.solids.wheel_modes import WheelModes, residual_flexibility
+from contactstudy.track.meshed import MeshedTrack
+from contactstudy.validation import not_negative, one_of, positive, raise_if
+from contactstudy.vehicle import Vehicle, with_wheel_modes
+
+WHEEL_DAMPING = 1e-3
+"""Damping ratio of the wheel's modes, an assumption: D. J. Thompson, Railway Noise and Vibration
+(2009), ch. 6, uses 1e-2, 1e-3 and 1e-4 for one, no and more waves round a wheel."""
+
+
+@dataclass(frozen=True, eq=False)
+class SurfaceContact:
+    """A meshed wheel that touches a meshed rail.
+
+    Parameters
+    ----------
+    wheel : WheelFlexibility
+        Elastic or rigid.
+    geometry : Geometry, optional
+        Profiles and position of a whole wheel on a whole rail section: inclination, lateral
+        shift, yaw. Half sections are centred and upright.
+    modes : WheelModes, optional
+        Elastic modes of the wheel, which then move with their inertia; without them it is
+        quasi-static (or rigid, if it has no flexibility), all its inertia in the wheel's dof.
+    wheel_damping : float
+        Damping ratio of the modes.
+    penalty : float
+        Pressure per penetration in Pa/m.
+    quadrature : {"gauss", "nodes"}
+        Contact points: Gauss points of the wheel's facets, or its tread nodes.
+    tolerance : float, optional
+        Largest penetration in m that an augmented Lagrangian leaves, see `contact.augmented`;
+        None: the penalty alone.
+
+    Raises
+    ------
+    InputError
+        For impossible values.
+    """
+
+    wheel: WheelFlexibility
+    geometry: Geometry | None = None
+    modes: WheelModes | None = field(default=None, repr=False)
+    wheel_damping: float = WHEEL_DAMPING
+    penalty: float = PENALTY
+    quadrature: Quadrature = "gauss"
+    tolerance: float | None = None
+
+    def __post_init__(self) -> None:
+        problems = positive("penalty", self.penalty, "Pa/m")
+        problems += not_negative("wheel_damping", self.wheel_damping)
+        problems += one_of("quadrature", self.quadrature, ("gauss", "nodes"))
+        if self.tolerance is not None:
+            problems += positive("tolerance of the penetration", self.tolerance, "m")
+        raise_if(problems)
+
+    @cached_property
+    def points(self) -> ContactPoints:
+        """Contact points on the wheel's tread."""
+        return wheel_points(self.wheel, self.quadrature, self.geometry)
+
+    @property
+    def enforcement(self) -> Enforcement:
+        """How penetration is prevented."""
+        if self.tolerance is None:
+            return Penalty(self.penalty)
+        return AugmentedLagrangian(self.tolerance, self.penalty)
+
+    @property
+    def candidates(self) -> CandidateList:
+        """Facets of the wheel that can touch the rail."""
+        return candidate_list(self.wheel, self.geometry)
+
+    def on(self, vehicle: Vehicle) -> Vehicle:
+        """The vehicle with the modes of this wheel, if it has any, last among its dofs."""
+        if self.modes is None:
+            return vehicle
+        modes = self.modes
+        return with_wheel_modes(vehicle, modes.frequencies, modes.participation, self.wheel_damping)
+
+    def moving(self, hub: int, n_dofs: int) -> MovingWheel:
+        """The wheel in a system of n_dofs whose dof `hub` it is, its modes the last dofs."""
+        if self.modes is None:
+            return MovingWheel(self.points, self.wheel, np.array([hub]))
+        body = residual_flexibility(self.wheel, self.modes)
+        dofs = np.r_[hub, n_dofs - len(self.modes.frequencies) : n_dofs]
+        return MovingWheel(self.points, body, dofs, self.modes)
+
+    def problems_on(self, track: MeshedTrack) -> list[str]:
+        """What speaks against pressing this wheel on that track."""
+        return mesh_problems(track, self.wheel, self.points)
+
+    def describe(self) -> dict[str, object]:
+        """Attributes of a run's dataset."""
+        still = "quasi-static" if self.wheel.flexibility.any() else "rigid"
+        told: dict[str, object] = {"law": "penalty", "penalty": self.penalty}
+        if self.tolerance is not None:
+            told |= {"law": "augmented Lagrangian", "penetration_tolerance": self.tolerance}
+        told |= {"quadrature": self.quadrature, "wheel": still}
+        if self.modes is not None:
+            told |= {"wheel": "modal", "wheel_modes": len(self.modes.frequencies)}
+        return told | {"contact_points": len(self.points.gap)}

@@ -1,0 +1,72 @@
+"""The recorder of a run: histories of wheels, rail and contact."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from contactstudy.arrays import Array
+from contactstudy.dynamics.rows import row_values
+from contactstudy.dynamics.stepper import State
+from contactstudy.solvers.dataset import history_dataset
+from contactstudy.solvers.observers import Watch
+from contactstudy.solvers.passage import Passage
+from contactstudy.track.discrete import DiscreteTrack
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+class Histories(Watch):
+    """Records every state of a passage.
+
+    Of the contact it records what its steps record. "rail_residual" there is what the contact
+    force adds to the deflection under the wheel beyond the track's dofs, and goes into
+    `rail_displacement`.
+    """
+
+    def __init__(self, passage: Passage[DiscreteTrack]) -> None:
+        self._passage, self._wheels = passage, passage.wheel_dofs
+        track, stations = passage.track, passage.journey.stations
+        shape = passage.positions.shape
+        self._rail = [
+            rows.reshape(*shape, -1) for rows in track.rail_rows(passage.positions.ravel())
+        ]
+        self._at_stations = track.rail_rows(np.asarray(stations, dtype=float))
+        self._stations = np.empty((shape[0], len(stations)))
+        self._wheel_u, self._wheel_a, self._rail_u = (np.empty(shape) for _ in range(3))
+        self._contact: dict[str, Array] = {}
+
+    def see(self, state: State) -> None:
+        """Record a state."""
+        assert state.contact is not None
+        step, u, record = state.step, state.u, state.contact.record
+        if not self._contact:
+            n_times = len(self._rail_u)
+            self._contact = {k: np.empty((n_times, *np.shape(v))) for k, v in record.items()}
+        for name, value in record.items():
+            self._contact[name][step] = value
+        self._wheel_u[step], self._wheel_a[step] = u[self._wheels], state.a[self._wheels]
+        dofs, weights = self._rail
+        self._rail_u[step] = row_values(dofs[step], weights[step], u)
+        if self._stations.size:
+            self._stations[step] = row_values(*self._at_stations, u)
+
+    def into(self, data: xr.Dataset) -> xr.Dataset:
+        """The labelled histories, with the attributes of a dataset."""
+        contact = dict(self._contact)
+        return history_dataset(
+            self._passage.journey,
+            self._passage.positions,
+            {
+                "contact_force": contact.pop("contact_force"),
+                "wheel_displacement": self._wheel_u,
+                "wheel_acceleration": self._wheel_a,
+                "rail_displacement": self._rail_u + contact.pop("rail_residual"),
+                "irregularity": self._passage.roughness,
+                **contact,
+            },
+            station_displacement=self._stations,
+            attrs=data.attrs,
+        )

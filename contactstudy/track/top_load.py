@@ -1,0 +1,68 @@
+"""How a wheel's load on top of a meshed rail differs from the same load spread over the section.
+
+A point law acts on the rail's centre line: the load B^T lambda is spread over the section, and
+the displacement is the section's mean. The wheel's load comes in at the top. With q, the load on
+top, as B plus the self-equilibrated pair p = q - B, the flexibility F of the supported rail gives
+
+    F_qq = F_BB + 2 F_Bp + F_pp,    F_Bp = F_Bq - F_BB.
+
+F_pp is local: it knows nothing of the supports and belongs to the contact spring. F_Bp does know
+them: over a pad the web is compressed by the load on top and less so by the spread one. The spring
+of a static press, measured to the centre line in mid-bay, stands for F_pp + F_Bp(mid) and whatever
+the wheel gives. So a point on the rail at X has the flexibility
+
+    F_BB(X) + 2 F_Bp(X) - F_Bp(mid),
+
+which is that of surface contact less what the spring stands for.
+"""
+
+from collections.abc import Callable
+
+import numpy as np
+
+from contactstudy.arrays import Array
+from contactstudy.dynamics.banded import Factor
+from contactstudy.track.meshed import MeshedTrack
+from contactstudy.track.model import DiscreteSupports
+
+_SAMPLES = 25
+"""Places on half a bay; the pair's flexibility is even about supports and mid-bay."""
+
+
+def top_load_compliance(track: MeshedTrack) -> Callable[[Array], Array]:
+    """2 F_Bp(X) - F_Bp(mid) as a function of X (m,) [m], in m/N; may be negative.
+
+    It is that of the middle bay in all bays.
+    """
+    from scipy.interpolate import CubicSpline
+
+    factor, bay, middle = Factor(track.stiffness), track.track.bay_length, track.track.middle
+    at_middle = _pair(track, factor, middle)
+    if not isinstance(track.track.support, DiscreteSupports):
+        return lambda x: np.full(np.shape(x), at_middle)
+    # on planes of the mesh, so that no phase of it matters
+    planes = np.unique(np.round(np.linspace(0.0, 0.5 * bay, _SAMPLES) / track.thickness))
+    offset = np.minimum(planes * track.thickness, 0.5 * bay)
+    values = np.array([_pair(track, factor, middle - x) for x in offset])
+    knots, first = np.unique(np.r_[-offset, offset].round(12), return_index=True)
+    spline = CubicSpline(knots, np.r_[values, values][first])
+
+    def compliance(x: Array) -> Array:
+        from_middle = np.mod(np.asarray(x) - middle + 0.5 * bay, bay) - 0.5 * bay
+        return np.asarray(2 * spline(from_middle) - at_middle)
+
+    return compliance
+
+
+def _pair(track: MeshedTrack, factor: Factor, x: float) -> float:
+    """F_Bp at X: mean motion of the section there for the load on top less for the spread one."""
+    (dofs,), (weights,) = track.rail_rows(np.array([x]))
+    spread = np.zeros(factor.n)
+    np.add.at(spread, dofs, weights)
+    u = factor.solve(spread)
+    own = float(spread @ u + track.local_compliance(np.array([x]))[0])
+    patch = track.patch(x, 2 * track.thickness)
+    # by reciprocity the motion of a node on top under the spread load
+    node = np.abs(patch.x - x).argmin() * len(patch.y) + np.abs(patch.arc).argmin()
+    top = patch.map[node] @ u[patch.dofs] + patch.centre_residual[0, node]
+    return float(top) - own
