@@ -17,7 +17,6 @@ from threadpoolctl import threadpool_limits
 from contactstudy.contact.surface_contact import SurfaceContact
 from contactstudy.export.calculix import calculix_input
 from contactstudy.export.press_mesh import press_mesh
-from contactstudy.export.run_calculix import run_calculix
 from contactstudy.halfspace.hertz import contact_modulus, hertz_contact
 from contactstudy.solids.cell import condense
 from contactstudy.solids.recipe import CellRecipe
@@ -27,6 +26,7 @@ from contactstudy.solvers.at_rest import geometry_press
 from contactstudy.track.model import Track
 from contactstudy.track.solid import SolidTrack, solid_rail
 from contactstudy.vehicle import wheel_column
+from contactstudy.verification.cases.run_calculix import run_calculix
 
 CELL, WHEEL, LENGTH, PENALTY = CellRecipe(), WheelRecipe(), 0.4, 1e16
 LOAD = float(wheel_column().static_loads[0])
