@@ -9,8 +9,8 @@ from functools import lru_cache
 from typing import Literal
 
 from contactstudy.exceptions import InputError, NumericalError
-from contactstudy.geometry.pose import PlacedWheel, Pose
-from contactstudy.geometry.smooth_touch import SmoothTouch, smooth_touch
+from contactstudy.geometry.placement import Geometry
+from contactstudy.geometry.pose import Pose
 from contactstudy.profiles.curve import ProfileCurve
 from contactstudy.validation import not_negative, positive, raise_if
 
@@ -103,13 +103,9 @@ class Wheelset:
         # Z is up here, and Y to the left on the left: turns change their signs
         return Pose(self.rail_inclination, lateral, -sign * roll, sign * yaw)
 
-    def placed(self, side: Side, shift: float, yaw: float, roll: float) -> PlacedWheel:
-        """One wheel in its pose."""
-        return PlacedWheel(self.wheel, self.radius, self.pose(side, shift, yaw, roll))
-
-    def touch(self, side: Side, shift: float, yaw: float, roll: float) -> SmoothTouch:
-        """First touch of one wheel in its pose; those of the last positions are remembered."""
-        return _touch(self, side, shift, yaw, roll)
+    def geometry(self, side: Side, shift: float, yaw: float, roll: float) -> Geometry:
+        """One wheel in its pose on its rail; those of the last positions are remembered."""
+        return _geometry(self, side, shift, yaw, roll)
 
     def rest_roll(self, shift: float, yaw: float) -> float:
         """Roll at which both wheels just touch their rails [rad].
@@ -123,7 +119,7 @@ class Wheelset:
 
         def misfit(roll: float) -> float:
             # heights of the axle's middle by either wheel: h = z_tape +- half sin(roll) + R cos
-            down = {side: self.touch(side, shift, yaw, roll).travel for side in SIDES}
+            down = {side: self.geometry(side, shift, yaw, roll).touch.travel for side in SIDES}
             travel = down["left"] - down["right"]
             return travel + 2.0 * self.half * math.sin(roll)
 
@@ -144,5 +140,6 @@ class Wheelset:
 
 
 @lru_cache(maxsize=1024)
-def _touch(wheelset: Wheelset, side: Side, shift: float, yaw: float, roll: float) -> SmoothTouch:
-    return smooth_touch(wheelset.placed(side, shift, yaw, roll), wheelset.rail)
+def _geometry(wheelset: Wheelset, side: Side, shift: float, yaw: float, roll: float) -> Geometry:
+    pose = wheelset.pose(side, shift, yaw, roll)
+    return Geometry(wheelset.rail, wheelset.wheel, wheelset.radius, pose)

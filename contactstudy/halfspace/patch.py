@@ -138,7 +138,7 @@ def _patch(
     # cells miss the very bottom: look closer along the locus
     row = int(np.argmax(overlap)) % love.shape[1]
     ends = grid.s[max(row - 1, 0)], grid.s[min(row + 1, len(grid.s) - 1)]
-    deepest = bodies.on_locus(travel, np.linspace(*ends, 81))
+    deepest = bodies.geometry.on_locus(np.linspace(*ends, 81), travel)
     bottom = int(np.argmin(deepest.gap))
     weights = forces.ravel() / total
     square = overlap.ravel() ** 2 / float((overlap**2).sum())
@@ -163,6 +163,6 @@ def _patch(
 
 
 def _place(bodies: Bodies, arc: float) -> RailPlace:
-    track = bodies.wheel.pose.track_of_rail
-    (y, z), n = track(bodies.rail.point(arc)), track(bodies.rail.normal(arc))
+    rail, track = bodies.geometry.rail, bodies.geometry.pose.track_of_rail
+    (y, z), n = track(rail.point(arc)), track(rail.normal(arc))
     return RailPlace(float(y), float(z), arc, float(np.arctan2(-n[0], n[1])))

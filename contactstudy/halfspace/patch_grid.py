@@ -6,11 +6,9 @@ from functools import cached_property
 import numpy as np
 
 from contactstudy.arrays import Array, BoolArray
-from contactstudy.geometry.facing import Facing, surface_gap
-from contactstudy.geometry.pose import PlacedWheel
-from contactstudy.geometry.smooth_touch import SmoothTouch
+from contactstudy.geometry.facing import Facing
+from contactstudy.geometry.placement import Geometry
 from contactstudy.halfspace.love import LoveGrid
-from contactstudy.profiles.curve import ProfileCurve
 
 Span = tuple[float, float]
 
@@ -71,39 +69,30 @@ class Bodies:
 
     Parameters
     ----------
-    wheel : PlacedWheel
-    rail : ProfileCurve
-    touch : SmoothTouch
+    geometry : Geometry
     modulus : float
         E* of both bodies [Pa].
     """
 
-    wheel: PlacedWheel
-    rail: ProfileCurve
-    touch: SmoothTouch
+    geometry: Geometry
     modulus: float
 
     def local_radius(self, s: Array) -> Array:
         """Rolling radius (n,) at arc lengths s [m]."""
-        return np.asarray(self.wheel.radius - self.wheel.curve.point(s)[:, 1])
+        return np.asarray(self.geometry.radius - self.geometry.wheel.point(s)[:, 1])
 
     def facing(self, travel: float, grid: CellGrid) -> Facing:
         """Gap, normals and feet of the cells' centres, wheel lowered from first touch."""
         s = np.tile(grid.s, len(grid.angle))
         x = self.local_radius(s) * np.sin(np.repeat(grid.angle, len(grid.s)))
-        return surface_gap(self.wheel, self.rail, self.touch.travel + travel, x, s)
-
-    def on_locus(self, travel: float, s: Array) -> Facing:
-        """The same of the points of the wheel's profile circles that come nearest to the rail."""
-        down = self.touch.travel + travel
-        return surface_gap(self.wheel, self.rail, down, self.wheel.locus(s), s)
+        return self.geometry.facing(x, s, travel)
 
     @cached_property
     def _near(self) -> Array:
         """Arc lengths on the wheel that can come into contact."""
-        s0, s1 = self.wheel.curve.s_range
+        s0, s1 = self.geometry.wheel.s_range
         s = np.linspace(s0, s1, int((s1 - s0) / (10 * LOOK)) + 2)
-        gap = self.on_locus(0.0, s).gap
+        gap = self.geometry.on_locus(s).gap
         close = s[gap < DEEPEST]
         return np.arange(max(close[0] - 10 * LOOK, s0), min(close[-1] + 10 * LOOK, s1), LOOK)
 
@@ -122,15 +111,15 @@ class Bodies:
             Cells each way.
         """
         s = self._near
-        facing = self.on_locus(travel, s)
+        facing = self.geometry.on_locus(s, travel)
         inside = np.flatnonzero(facing.gap < 0.0)
         if not len(inside):
             return []
         radius = self.local_radius(s)
-        centre = np.arcsin(self.wheel.locus(s) / radius)
+        centre = np.arcsin(self.geometry.placed.locus(s) / radius)
         # along the circumference the wheel leaves the rail by n_r u^2/(2 r), n_r the radial
         # component of its normal (Meusnier): it overlaps for u^2 < 2 r depth / n_r
-        radial = np.abs(self.wheel.curve.normal(s)[:, 1])
+        radial = np.abs(self.geometry.wheel.normal(s)[:, 1])
         depth = np.maximum(-facing.gap, 0.0)
         half = np.sqrt(2.0 * depth / (radius * np.maximum(radial, 0.02)))
         grids = []

@@ -9,13 +9,11 @@ half-space that far.
 
 from contactstudy.arrays import Array
 from contactstudy.exceptions import NumericalError
-from contactstudy.geometry.pose import PlacedWheel
-from contactstudy.geometry.smooth_touch import smooth_touch
+from contactstudy.geometry.placement import Geometry
 from contactstudy.halfspace.first_press import REGION_CELLS, cell_side, first_press, settle, solve
 from contactstudy.halfspace.love import GridTooSmallError
 from contactstudy.halfspace.patch import WheelPress, patches_of
 from contactstudy.halfspace.patch_grid import Bodies, Pressed
-from contactstudy.profiles.curve import ProfileCurve
 from contactstudy.validation import positive, raise_if
 
 JOIN = 4e-3
@@ -23,8 +21,7 @@ JOIN = 4e-3
 
 
 def press_wheel(
-    wheel: PlacedWheel,
-    rail: ProfileCurve,
+    geometry: Geometry,
     load: float,
     modulus: float,
     *,
@@ -40,8 +37,8 @@ def press_wheel(
 
     Parameters
     ----------
-    wheel : PlacedWheel
-    rail : ProfileCurve
+    geometry : Geometry
+        Wheel and rail.
     load : float
         Vertical resultant of all patches [N].
     modulus : float
@@ -73,7 +70,7 @@ def press_wheel(
         + ([] if cells >= 16 else [f"cells = {cells}: must be 16 or more"])
         + ([] if side is None else positive("side of the cells", side, "m"))
     )
-    bodies = Bodies(wheel, rail, smooth_touch(wheel, rail), modulus)
+    bodies = Bodies(geometry, modulus)
     travel, pressed = first_press(bodies, load, join)
     for margin in (0.1, 0.2, 0.4):
         grids = [
@@ -98,4 +95,4 @@ def press_wheel(
     else:
         raise NumericalError(f"press of {load:.6g} N: the patches outgrow their grids")
     patches = [p for k, region in enumerate(pressed) for p in patches_of(bodies, region, travel, k)]
-    return WheelPress(travel, bodies.touch, tuple(sorted(patches, key=lambda p: -p.normal_force)))
+    return WheelPress(travel, geometry.touch, tuple(sorted(patches, key=lambda p: -p.normal_force)))

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from contactstudy.geometry.pose import PlacedWheel
+from contactstudy.geometry.placement import Geometry
 from contactstudy.halfspace.patches import press_wheel
 from contactstudy.profiles.named import rail_curve, wheel_curve
 from contactstudy.verification.cases.friction import vertical_friction
@@ -69,16 +69,16 @@ def test_centred_wheels_are_mirror_images():
 
 
 def test_friction_of_a_yawed_wheel_is_lateral_and_saturated():
-    placed = PlacedWheel(wheel_curve("S1002"), RADIUS, benchmark_pose(6, "right"))
-    (patch,) = press_wheel(placed, rail_curve(RAIL), 10e3, MODULUS, cells=24).patches
+    bodies = Geometry(rail_curve(RAIL), wheel_curve("S1002"), RADIUS, benchmark_pose(6, "right"))
+    (patch,) = press_wheel(bodies, 10e3, MODULUS, cells=24).patches
     local = RADIUS - float(wheel_curve("S1002").point(patch.wheel_s)[1])
-    lift = vertical_friction(patch, placed, 2.0, 2.0 / local, 0.3, 82e9)
+    lift = vertical_friction(patch, bodies.placed, 2.0, 2.0 / local, 0.3, 82e9)
     # no longitudinal slip; the wheel slides to the left, friction pushes it to the right, up the
     # rail's slope towards the field side
     assert lift == pytest.approx(0.3 * patch.normal_force * math.sin(patch.centre.angle), rel=2e-3)
-    assert vertical_friction(patch, placed, 2.0, 2.0 / local, 0.0, 82e9) == 0.0
+    assert vertical_friction(patch, bodies.placed, 2.0, 2.0 / local, 0.0, 82e9) == 0.0
     # the smaller the yaw, the nearer to Kalker's straight line
-    straight = PlacedWheel(wheel_curve("S1002"), RADIUS, benchmark_pose(1, "right"))
-    (patch,) = press_wheel(straight, rail_curve(RAIL), 10e3, MODULUS, cells=24).patches
+    straight = Geometry(rail_curve(RAIL), wheel_curve("S1002"), RADIUS, benchmark_pose(1, "right"))
+    (patch,) = press_wheel(straight, 10e3, MODULUS, cells=24).patches
     local = RADIUS - float(wheel_curve("S1002").point(patch.wheel_s)[1])
-    assert abs(vertical_friction(patch, straight, 2.0, 2.0 / local, 0.3, 82e9)) < 1e-6
+    assert abs(vertical_friction(patch, straight.placed, 2.0, 2.0 / local, 0.3, 82e9)) < 1e-6

@@ -8,7 +8,8 @@ import pytest
 
 from contactstudy.contact.complementarity import press
 from contactstudy.exceptions import InputError
-from contactstudy.geometry.pose import PlacedWheel, Pose
+from contactstudy.geometry.placement import Geometry
+from contactstudy.geometry.pose import Pose
 from contactstudy.halfspace.hertz import contact_modulus, hertz_contact
 from contactstudy.halfspace.love import influence_matrix
 from contactstudy.halfspace.patch_grid import Bodies
@@ -20,11 +21,11 @@ INCLINED = math.atan(1 / 40)
 
 
 def wheel(name="S1002", radius=0.46, **pose):
-    return PlacedWheel(wheel_curve(name), radius, Pose(**pose))
+    return Geometry(RAIL, wheel_curve(name), radius, Pose(**pose))
 
 
 def test_cylinder_on_the_crown_is_hertz():
-    found = press_wheel(wheel("cylinder", 0.43), RAIL, 60e3, MODULUS)
+    found = press_wheel(wheel("cylinder", 0.43), 60e3, MODULUS)
     (patch,) = found.patches
     h = hertz_contact(60e3, MODULUS, 0.43, 0.30)
     assert patch.normal_force == pytest.approx(60e3, rel=3e-5)
@@ -43,8 +44,7 @@ def test_cylinder_on_the_crown_is_hertz():
 def test_area_converges_on_hertz_with_the_cells():
     h = hertz_contact(60e3, MODULUS, 0.43, 0.30)
     off = [
-        press_wheel(wheel("cylinder", 0.43), RAIL, 60e3, MODULUS, cells=n).patches[0].area / h.area
-        - 1
+        press_wheel(wheel("cylinder", 0.43), 60e3, MODULUS, cells=n).patches[0].area / h.area - 1
         for n in (16, 64)
     ]
     # the rim's share is of order h
@@ -60,8 +60,8 @@ def test_area_converges_on_hertz_with_the_cells():
 )
 def test_press_is_that_of_the_dense_active_set_method(pose):
     placed = wheel(**pose)
-    found = press_wheel(placed, RAIL, 20e3, MODULUS, cells=20)
-    bodies = Bodies(placed, RAIL, found.touch, MODULUS)
+    found = press_wheel(placed, 20e3, MODULUS, cells=20)
+    bodies = Bodies(placed, MODULUS)
     (grid,) = bodies.regions(found.travel, 4e-3, 20)
     facing, love = bodies.facing(0.0, grid), grid.love
     i, j = (np.arange(n) for n in love.shape)
@@ -82,7 +82,7 @@ def test_press_is_that_of_the_dense_active_set_method(pose):
 def test_tread_and_flange_come_out_by_themselves_and_share_the_load():
     # flange root just about to touch: both carry
     placed = wheel(rail_inclination=INCLINED, lateral=2.26e-3, yaw=12e-3, roll=-3.5e-4)
-    found = press_wheel(placed, RAIL, 10e3, MODULUS, cells=32)
+    found = press_wheel(placed, 10e3, MODULUS, cells=32)
     assert len(found.patches) == 2
     assert {p.region for p in found.patches} == {0, 1}
     assert sum(p.vertical_force for p in found.patches) == pytest.approx(10e3, rel=1e-6)
@@ -100,7 +100,7 @@ def test_tread_and_flange_come_out_by_themselves_and_share_the_load():
 def test_opposite_yaw_gives_the_same_patch():
     one, other = (
         press_wheel(
-            wheel(rail_inclination=INCLINED, lateral=-1e-3, yaw=yaw), RAIL, 60e3, MODULUS, cells=24
+            wheel(rail_inclination=INCLINED, lateral=-1e-3, yaw=yaw), 60e3, MODULUS, cells=24
         )
         for yaw in (0.02, -0.02)
     )
@@ -111,14 +111,14 @@ def test_opposite_yaw_gives_the_same_patch():
 
 def test_impossible_arguments_are_all_named():
     with pytest.raises(InputError) as found:
-        press_wheel(wheel(), RAIL, -1.0, 0.0, cells=4, side=0.0)
+        press_wheel(wheel(), -1.0, 0.0, cells=4, side=0.0)
     assert len(found.value.problems) == 4
 
 
 def test_cells_fit_into_a_small_patch():
     """Cells of a given side are made smaller where a patch has less than three across."""
     h = hertz_contact(20.0, MODULUS, 0.43, 0.3)
-    (patch,) = press_wheel(wheel("cylinder", 0.43), RAIL, 20.0, MODULUS, side=1e-3).patches
+    (patch,) = press_wheel(wheel("cylinder", 0.43), 20.0, MODULUS, side=1e-3).patches
     assert 2 * min(h.semi_axis_x, h.semi_axis_y) < 1e-3  # one cell would cover it
     # Johnson (1985) eq. (4.22)
     assert patch.approach == pytest.approx(h.approach, rel=0.05)
@@ -128,4 +128,4 @@ def test_cells_fit_into_a_small_patch():
 @pytest.mark.parametrize(("load", "why"), [(1e-9, "must be larger"), (1e8, "must be smaller")])
 def test_loads_that_half_spaces_cannot_carry(load, why):
     with pytest.raises(InputError, match=re.escape(f"load = {load:g} N: ") + f".*{why}"):
-        press_wheel(wheel("cylinder", 0.43), RAIL, load, MODULUS)
+        press_wheel(wheel("cylinder", 0.43), load, MODULUS)

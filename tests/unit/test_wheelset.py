@@ -60,9 +60,9 @@ def test_rest_roll_is_contacts_less_the_approaches(wheelset):
     found = wheelset.rest_roll(shift, yaw)
     sunk = {}
     for side in SIDES:
-        placed = wheelset.placed(side, shift, yaw, m.ROLL[case - 1])
-        sunk[side] = press_wheel(placed, wheelset.rail, m.LOAD, m.MODULUS, side=0.5e-3).travel
-        sunk[side] -= press_wheel(placed, wheelset.rail, 1.0, m.MODULUS).travel
+        placed = wheelset.geometry(side, shift, yaw, m.ROLL[case - 1])
+        sunk[side] = press_wheel(placed, m.LOAD, m.MODULUS, side=0.5e-3).travel
+        sunk[side] -= press_wheel(placed, 1.0, m.MODULUS).travel
     expected = m.ROLL[case - 1] + (sunk["left"] - sunk["right"]) / (2 * wheelset.half)
     print(f"roll at rest {found:.5e}; CONTACT's without its approaches {expected:.5e}")
     assert found == pytest.approx(expected, abs=2e-7)

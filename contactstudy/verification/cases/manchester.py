@@ -12,7 +12,8 @@ import math
 from dataclasses import dataclass
 from functools import lru_cache
 
-from contactstudy.geometry.pose import PlacedWheel, Pose
+from contactstudy.geometry.placement import Geometry
+from contactstudy.geometry.pose import Pose
 from contactstudy.geometry.wheelset import Side, Wheelset
 from contactstudy.halfspace.patch import Patch
 from contactstudy.halfspace.patches import press_wheel
@@ -140,15 +141,18 @@ def benchmark_patches(
     side : float
         Side of the cells [m].
     """
-    pose, rail = benchmark_pose(case, wheel), rail_curve(RAIL)
-    placed = PlacedWheel(wheel_curve("S1002"), RADIUS, pose)
+    pose = benchmark_pose(case, wheel)
+    bodies = Geometry(rail_curve(RAIL), wheel_curve("S1002"), RADIUS, pose)
+    pitch = PITCH_RATE[case - 1]
     load = LOAD
     # sum of normal and friction forces: a few steps of a fixed point, the share of friction
     # hardly depends on the load
     for _ in range(8):
-        press = press_wheel(placed, rail, load, MODULUS, side=side)
+        press = press_wheel(bodies, load, MODULUS, side=side)
         lift = [
-            vertical_friction(p, placed, SPEED, PITCH_RATE[case - 1], friction, SHEAR_MODULUS)
+            vertical_friction(
+                p, bodies.placed, SPEED, PITCH_RATE[case - 1], friction, SHEAR_MODULUS
+            )
             for p in press.patches
         ]
         total = sum(p.vertical_force for p in press.patches) + sum(lift)

@@ -102,4 +102,4 @@ def _check(
 
 def _half_space(study: Study, placed: Geometry, load: float) -> WheelPress:
     modulus = contact_modulus(study.track.youngs_modulus, study.track.poisson_ratio)
-    return press_wheel(placed.placed, placed.rail, load, modulus)
+    return press_wheel(placed, load, modulus)

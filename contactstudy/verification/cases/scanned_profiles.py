@@ -11,8 +11,8 @@ import trimesh
 
 from contactstudy.arrays import Array
 from contactstudy.geometry.facets import rail_surface, wheel_surface
-from contactstudy.geometry.pose import PlacedWheel, Pose
-from contactstudy.geometry.smooth_touch import smooth_touch
+from contactstudy.geometry.placement import Geometry
+from contactstudy.geometry.pose import Pose
 from contactstudy.halfspace.hertz import contact_modulus
 from contactstudy.halfspace.patch import WheelPress
 from contactstudy.halfspace.patches import press_wheel
@@ -103,11 +103,10 @@ def scanned_profiles() -> CaseResult:
     modulus = contact_modulus(210e9, 0.3)
     for name, pose in POSES.items():
         found = meeting(scans["rail"], scans["wheel"], RADIUS, pose, 0.01, 0.008)
-        fitted = PlacedWheel(scans["wheel"].curve, RADIUS, pose)
-        drawn = PlacedWheel(exact["wheel"], RADIUS, pose)
-        touch = smooth_touch(drawn, exact["rail"])
-        ours = press_wheel(fitted, scans["rail"].curve, LOAD, modulus)
-        theirs = press_wheel(drawn, exact["rail"], LOAD, modulus)
+        drawn = Geometry(exact["rail"], exact["wheel"], RADIUS, pose)
+        fitted = Geometry(scans["rail"].curve, scans["wheel"].curve, RADIUS, pose)
+        touch = drawn.touch
+        ours, theirs = (press_wheel(bodies, LOAD, modulus) for bodies in (fitted, drawn))
         semi_axis = theirs.patches[0].across
         checks.append(
             Check(

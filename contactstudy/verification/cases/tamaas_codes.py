@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from contactstudy.arrays import Array
-from contactstudy.geometry.pose import PlacedWheel
+from contactstudy.geometry.placement import Geometry
 from contactstudy.halfspace.hertz import contact_modulus, hertz_contact
 from contactstudy.halfspace.love import LoveGrid, contact_pressure
 from contactstudy.halfspace.patch_grid import Bodies
@@ -76,10 +76,10 @@ def _hertz(cells: int = 64) -> _Field:
 
 def _benchmark(case: int) -> _Field:
     """Gap of the left wheel at the travel that its press found."""
-    wheel = PlacedWheel(wheel_curve("S1002"), RADIUS, benchmark_pose(case, "left"))
-    rail = rail_curve("UIC60-Manchester")
-    press = press_wheel(wheel, rail, LOAD, MODULUS, cells=16)
-    bodies = Bodies(wheel, rail, press.touch, MODULUS)
+    pose = benchmark_pose(case, "left")
+    geometry = Geometry(rail_curve("UIC60-Manchester"), wheel_curve("S1002"), RADIUS, pose)
+    press = press_wheel(geometry, LOAD, MODULUS, cells=16)
+    bodies = Bodies(geometry, MODULUS)
     (grid,) = bodies.regions(press.travel, 4e-3, 64)
     gap = bodies.facing(press.travel, grid).gap.reshape(grid.love.shape)
     return _Field(f"A-2.2, position {case}, left wheel", grid.love, gap)

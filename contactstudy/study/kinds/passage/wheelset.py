@@ -161,7 +161,7 @@ def derailed(
     steepest = float(s[np.argmax(slope)])
     problems = []
     for side in sides:
-        touch = wheelset.touch(side, shift, yaw, roll)
+        touch = wheelset.geometry(side, shift, yaw, roll).touch
         if touch.wheel_s < steepest and touch.angle < CLIMBED:
             problems.append(
                 f"the {side} wheel stands on its rail with the flange's tip (contact angle "

@@ -72,7 +72,7 @@ def check_positions(
 
 def _wrong_at(study: PositionsStudy, k: int, sides: list[Side]) -> list[str]:
     shift, yaw, given = study.positions[k]
-    wheelset, rail = study.wheelset, study.wheelset.rail
+    wheelset = study.wheelset
     try:
         roll = roll_of(study, k)
         climbed = derailed(wheelset, SIDES if given is None else tuple(sides), shift, yaw, roll)
@@ -82,8 +82,7 @@ def _wrong_at(study: PositionsStudy, k: int, sides: list[Side]) -> list[str]:
         return climbed
     problems = []
     for side in sides:
-        touch = wheelset.touch(side, shift, yaw, roll)
-        bodies = Bodies(wheelset.placed(side, shift, yaw, roll), rail, touch, study.modulus)
+        bodies = Bodies(wheelset.geometry(side, shift, yaw, roll), study.modulus)
         try:
             first_press(bodies, study.table.load, JOIN)
         except ContactStudyError as error:

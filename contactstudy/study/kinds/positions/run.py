@@ -116,8 +116,8 @@ def _pressed(study: PositionsStudy, side: Side, k: int) -> list[dict[str, Any]]:
     table, wheelset, turned = study.table, study.wheelset, roll_of(study, k)
     where = f"{side} wheel at {1e3 * shift:g} mm and {1e3 * yaw:g} mrad"
     try:
-        placed = wheelset.placed(side, shift, yaw, turned)
-        press = press_wheel(placed, wheelset.rail, table.load, study.modulus, side=table.cell)
+        placed = wheelset.geometry(side, shift, yaw, turned)
+        press = press_wheel(placed, table.load, study.modulus, side=table.cell)
     except InputError as error:
         raise InputError([f"{where}: {problem}" for problem in error.problems]) from error
     except NumericalError as error:
