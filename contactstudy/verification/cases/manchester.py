@@ -150,9 +150,7 @@ def benchmark_patches(
     for _ in range(8):
         press = press_wheel(bodies, load, MODULUS, side=side)
         lift = [
-            vertical_friction(
-                p, bodies.placed, SPEED, PITCH_RATE[case - 1], friction, SHEAR_MODULUS
-            )
+            vertical_friction(p, bodies.placed, SPEED, pitch, friction, SHEAR_MODULUS)
             for p in press.patches
         ]
         total = sum(p.vertical_force for p in press.patches) + sum(lift)
