@@ -66,7 +66,42 @@ def _split(value: str, example: str) -> tuple[float, str]:
     return float(match[1]), match[2]
 
 
+# The units that studies are written in: factor (numerator, denominator) and exponents of m, kg, s.
+# They are known here because loading pint takes as long as a small run does.
+_Known = tuple[int, int, tuple[int, int, int]]
+_PREFIXES = {"": (1, 1), "k": (10**3, 1), "M": (10**6, 1), "G": (10**9, 1), "c": (1, 100)}
+_PREFIXES |= {"m": (1, 10**3), "u": (1, 10**6), "µ": (1, 10**6), "n": (1, 10**9)}
+_PLAIN = {"m": (1, 0, 0), "s": (0, 0, 1), "N": (1, 1, -2), "Pa": (-1, 1, -2), "rad": (0, 0, 0)}
+_KNOWN: dict[str, _Known] = {p + u: (*f, _PLAIN[u]) for p, f in _PREFIXES.items() for u in _PLAIN}
+_KNOWN |= {"1": (1, 1, (0, 0, 0)), "kg": (1, 1, (0, 1, 0)), "g": (1, 10**3, (0, 1, 0))}
+_KNOWN |= {"t": (10**3, 1, (0, 1, 0)), "h": (3600, 1, (0, 0, 1)), "min": (60, 1, (0, 0, 1))}
+_KNOWN |= {"Hz": (1, 1, (0, 0, -1)), "kHz": (10**3, 1, (0, 0, -1))}
+_POWER = re.compile(r"([A-Za-zµ]+|1)(?:\^(-?\d))?")
+
+
+def _known(text: str) -> _Known | None:
+    """Product of known units; None when there is anything else in the text."""
+    text = text.strip().replace("**", "^").replace("·", "*").replace("μ", "µ")
+    parts = re.split("([*/])", re.sub(r"\s*([*/^])\s*|\s+", lambda m: m[1] or "*", text))
+    top, bottom, dimension = 1, 1, (0, 0, 0)
+    for before, part in zip(["*", *parts[1::2]], parts[::2], strict=True):
+        match = _POWER.fullmatch(part)
+        if match is None or match[1] not in _KNOWN:
+            return None
+        numerator, denominator, own = _KNOWN[match[1]]
+        power = int(match[2] or 1) * (1 if before == "*" else -1)
+        if power < 0:
+            numerator, denominator = denominator, numerator
+        top, bottom = top * numerator ** abs(power), bottom * denominator ** abs(power)
+        a, b, c = (d + power * o for d, o in zip(dimension, own, strict=True))
+        dimension = a, b, c
+    return top, bottom, dimension
+
+
 def _factor(text: str, unit: str) -> float:
+    known, target = _known(text), _known(unit or "1")
+    if known is not None and target is not None and known[2] == target[2]:
+        return known[0] * target[1] / (known[1] * target[0])
     # A blank between units is a product to people, "kN s/m"; pint reads it the same way.
     try:
         given = _registry().parse_units(text.replace("·", "*").replace("μ", "µ"))

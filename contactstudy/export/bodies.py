@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from contactstudy.arrays import Array, IntArray
-from contactstudy.solids.cell import section_of
+from contactstudy.solids.cell import section_mesh_of
 from contactstudy.solids.recipe import CellRecipe
 from contactstudy.solids.wheel_recipe import WheelRecipe
 
@@ -34,7 +34,7 @@ class Body:
 
 def rail_body(cell: CellRecipe, slices: int) -> Body:
     """Piece of rail about X = 0, in the rail's own axes, its crown at the origin."""
-    section, _, _ = section_of(cell)
+    section = section_mesh_of(cell)
     n, planes = len(section.nodes), np.arange(slices + 1)
     nodes = np.empty((len(planes), n, 3))
     nodes[:, :, 0] = (cell.length / cell.n_slices * (planes - 0.5 * slices))[:, None]

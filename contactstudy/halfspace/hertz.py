@@ -121,7 +121,6 @@ def hertz_contact(load: float, modulus: float, radius_x: float, radius_y: float)
     InputError
         If an argument is not positive and finite (a line contact has its own function).
     """
-    from scipy.optimize import brentq
     from scipy.special import ellipk, elliprd
 
     raise_if(
@@ -138,9 +137,10 @@ def hertz_contact(load: float, modulus: float, radius_x: float, radius_y: float)
         complement = math.exp(-2.0 * log_axes)  # 1 - m = (b/a)^2
         return math.log(elliprd(0.0, 1.0, complement) / elliprd(0.0, complement, 1.0) / ratio)
 
-    log_axes = 0.0
-    if ratio > 1.0:
-        log_axes = brentq(mismatch, 0.0, math.log(_LARGEST_AXIS_RATIO), xtol=1e-15, rtol=1e-15)
+    # bisection to the last bit; loading scipy.optimize takes longer than a small run
+    log_axes, above = 0.0, math.log(_LARGEST_AXIS_RATIO)
+    while ratio > 1.0 and log_axes < (middle := 0.5 * (log_axes + above)) < above:
+        log_axes, above = (middle, above) if mismatch(middle) < 0.0 else (log_axes, middle)
     complement = math.exp(-2.0 * log_axes)
     # 1/(2 R_a) with p0 = 3 F/(2 pi a b):  a^3 = F R_a R_D(0, 1-m, 1) / (pi E*)
     a = (load * large * elliprd(0.0, complement, 1.0) / (math.pi * modulus)) ** (1.0 / 3.0)

@@ -66,17 +66,21 @@ class RailCell:
     section_residual: Array
 
 
-def section_of(recipe: CellRecipe) -> tuple[SectionMesh, ExtrudedSlice, SectionRows]:
-    """Section mesh, one slice and the plane's functionals of a recipe."""
-    profile = rail_profile(recipe.profile)
-    section = rail_section_mesh(
-        profile,
+def section_mesh_of(recipe: CellRecipe) -> SectionMesh:
+    """Section mesh of a recipe."""
+    return rail_section_mesh(
+        rail_profile(recipe.profile),
         recipe.size,
         recipe.symmetric,
         recipe.contact_half_width,
         coarse=recipe.coarse,
         contact_centre=recipe.contact_centre,
     )
+
+
+def section_of(recipe: CellRecipe) -> tuple[SectionMesh, ExtrudedSlice, SectionRows]:
+    """Section mesh, one slice and the plane's functionals of a recipe."""
+    section = section_mesh_of(recipe)
     piece = extrude(
         section,
         recipe.length / recipe.n_slices,
@@ -84,7 +88,7 @@ def section_of(recipe: CellRecipe) -> tuple[SectionMesh, ExtrudedSlice, SectionR
         recipe.poisson_ratio,
         recipe.density,
     )
-    return section, piece, section_rows(section, profile, piece)
+    return section, piece, section_rows(section, rail_profile(recipe.profile), piece)
 
 
 def condense(recipe: CellRecipe) -> RailCell:

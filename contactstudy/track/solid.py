@@ -2,13 +2,13 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 
 from contactstudy.arrays import Array, BoolArray, IntArray
 from contactstudy.exceptions import InputError
-from contactstudy.solids.cell import RailCell, section_of
+from contactstudy.solids.cell import RailCell, section_mesh_of
 from contactstudy.solids.pair import CellPair, cell_pair
 from contactstudy.solids.recipe import CellRecipe
 from contactstudy.track.cell_chain import MOTIONS, CellChain
@@ -20,11 +20,11 @@ from contactstudy.track.supports import SupportedRail, add_supports
 from contactstudy.track.top_load import top_load_compliance
 
 
+@lru_cache(maxsize=8)
 def solid_rail(recipe: CellRecipe) -> Rail:
     """Beam properties of the rail that a recipe meshes: integrals over its very section mesh."""
-    section, _, _ = section_of(recipe)
     return Rail(
-        section=section.properties(recipe.poisson_ratio),
+        section=section_mesh_of(recipe).properties(recipe.poisson_ratio),
         youngs_modulus=recipe.youngs_modulus,
         poisson_ratio=recipe.poisson_ratio,
         density=recipe.density,
@@ -207,7 +207,7 @@ class SolidTrack(AssembledTrack):
         pair, _, planes = self._planes(x, half_length)
         dofs, held = self._pair_dofs(pair)
         middle = slice(self._chain.step, self._chain.step + self.recipe.interface_modes)
-        mesh, _, _ = section_of(self.recipe)
+        mesh = section_mesh_of(self.recipe)
         k = len(mesh.nodes)
         return SectionResponse(
             position=(pair + 1) * self.recipe.length,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 from rich.console import Console
@@ -18,8 +19,8 @@ from contactstudy.study.kinds.passage.runs import PointRun
 from contactstudy.study.kinds.passage.schema import Study
 from contactstudy.study.kinds.passage.vehicles import vehicle
 from contactstudy.study.loading import load_companions
-from contactstudy.track.beam import BeamTrack
-from contactstudy.track.model import DiscreteSupports, Slab, Track
+from contactstudy.track.beam import BeamTrack, RailTheory
+from contactstudy.track.model import Direction, DiscreteSupports, Slab, Track
 
 # Rough costs on a core of 2020 or later, measured with the shipped studies; for a forecast only.
 START = 4.0  # s, a process with its imports
@@ -44,18 +45,24 @@ def forecast(study: Study, run: str, track: Track) -> Forecast:
     steps = build.journey(study, run).n_steps
     wheels = vehicle(study).n_dofs
     if isinstance(table, PointRun) and not table.needs_solid:
-        beam = BeamTrack(
-            track,
-            "timoshenko" if table.rail == "timoshenko" else "euler",
-            table.elements_per_bay,
-            table.local_compliance,
-            direction=table.direction,
-        )
-        dofs = beam.n_dofs + wheels
+        theory = "timoshenko" if table.rail == "timoshenko" else "euler"
+        beam = theory, table.elements_per_bay, table.local_compliance, table.direction
+        dofs = _beam_dofs(track, *beam) + wheels
         return Forecast(dofs, steps, START + steps * (POINT_STEP + POINT_STEP_PER_DOF * dofs))
     dofs = solid_dofs(study, track) + wheels
     seconds = START + steps * (SOLID_STEP + SOLID_STEP_PER_DOF * dofs)
     return Forecast(dofs, steps, seconds)
+
+
+@lru_cache(maxsize=32)
+def _beam_dofs(
+    track: Track,
+    theory: RailTheory,
+    elements_per_bay: int,
+    element_compliance: bool,
+    direction: Direction,
+) -> int:
+    return BeamTrack(track, theory, elements_per_bay, element_compliance, direction).n_dofs
 
 
 def solid_dofs(study: Study, track: Track) -> int:
