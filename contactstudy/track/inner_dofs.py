@@ -114,15 +114,18 @@ class InnerDofs:
         return energies
 
     def pad_weights(self, pad: int) -> tuple[np.ndarray, np.ndarray]:
-        """Dofs and weights with which the inner dofs enter the average over one pad."""
+        """Dofs and weights with which the inner dofs enter the average over one pad.
+
+        A pad of no length stands on a node, where every inner shape is zero: it has none.
+        """
         pairs = [
             (dof, self._average(int(own), int(dof)))
             for own in np.flatnonzero(self.pads == pad)
             for dof in self.slots[self.elements[own]]
             if dof >= 0
         ]
-        dofs, weights = zip(*pairs, strict=True)
-        return np.array(dofs, dtype=np.int64), np.array(weights)
+        dofs, weights = [dof for dof, _ in pairs], [weight for _, weight in pairs]
+        return np.array(dofs, dtype=np.int64), np.array(weights, dtype=float)
 
     def values(self, element: np.ndarray, xi: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Dofs (m, k), -1 for none, and the values of their shapes (m, k) at local xi (m,)."""
