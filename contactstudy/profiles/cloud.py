@@ -13,16 +13,14 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from contactstudy.arrays import Array
 from contactstudy.exceptions import InputError
+from contactstudy.profiles.penalised_spline import needed_knots, penalised_spline
 
 if TYPE_CHECKING:
     from scipy.interpolate import BSpline
 
-_DEGREE = 3
-_BIN = 1e-4  # length [m] over which points are taken together where knots are chosen
 _POINTS = 5  # least number of points to an interval
 _ROUNDS, _GAIN = 20, 1e-5  # repetitions, and relative fall of the residual that is worth one
 _SETTLED = 1e-6  # change of the feet [m] at which fit and projection agree
@@ -104,12 +102,12 @@ def fit_cloud(
     # smooth at first, so that points far from the polygon find their feet
     for stiff in (8.0, 4.0, 2.0):
         for _ in range(3):
-            fit = _measured(p, _spline(p, s, knots, stiff * shortest), s)
+            fit = _measured(p, penalised_spline(p, s, knots, stiff * shortest), s)
             s, knots = fit.s, knots * (fit.length / knots[-1])
     fit = _agreed(p, s, knots, shortest)
     if all_knots:
         return fit
-    return _agreed(p, fit.s, _needed(p, fit, shortest), shortest)
+    return _agreed(p, fit.s, needed_knots(p, fit.s, fit.knots, fit.scatter, shortest), shortest)
 
 
 def _start(p: Array) -> Array:
@@ -143,7 +141,7 @@ def _agreed(p: Array, s: Array, knots: Array, shortest: float) -> CloudFit:
     """
     best: CloudFit | None = None
     for _ in range(_ROUNDS):
-        fit = _measured(p, _spline(p, s, knots, shortest), s)
+        fit = _measured(p, penalised_spline(p, s, knots, shortest), s)
         # the knots keep their places relative to the points
         scale = fit.length / knots[-1]
         knots = knots * scale
@@ -156,41 +154,6 @@ def _agreed(p: Array, s: Array, knots: Array, shortest: float) -> CloudFit:
             break
     assert best is not None
     return best
-
-
-def _spline(p: Array, s: Array, knots: Array, wavelength: float) -> BSpline:
-    """Least squares with a penalty that bridges places without points."""
-    from scipy.interpolate import BSpline
-
-    t = _padded(knots)
-    B = BSpline.design_matrix(np.clip(s, knots[0], knots[-1]), t, _DEGREE)
-    G = (B.T @ B).toarray() + _penalty(knots, len(p), wavelength)
-    return BSpline(t, np.linalg.solve(G, B.T @ p), _DEGREE)
-
-
-def _padded(knots: Array) -> Array:
-    return np.concatenate([[knots[0]] * _DEGREE, knots, [knots[-1]] * _DEGREE])
-
-
-def _penalty(knots: Array, n: int, wavelength: float) -> Array:
-    """Matrix of lambda times the integral of the squared third derivative.
-
-    A wave of length L over n/length points per metre is halved where
-    ``lambda (2 pi/L)^6 = n/length``; lambda is so chosen for the wavelength given.
-    """
-    third = _third(knots)
-    length = float(knots[-1] - knots[0])
-    factor = n / length * (wavelength / (2.0 * np.pi)) ** 6
-    return np.asarray(factor * (third.T * np.diff(knots)) @ third)
-
-
-def _third(knots: Array) -> Array:
-    """Third derivative within the intervals from the coefficients, (intervals, coefficients)."""
-    from scipy.interpolate import BSpline
-
-    t = _padded(knots)
-    unit = BSpline(t, np.eye(len(t) - _DEGREE - 1), _DEGREE)
-    return np.asarray(unit.derivative(3)(0.5 * (knots[:-1] + knots[1:])))
 
 
 def _measured(p: Array, spline: BSpline, u: Array) -> CloudFit:
@@ -230,46 +193,3 @@ def _scatter(s: Array, distance: Array) -> float:
     d = distance[np.argsort(s, kind="stable")]
     # var(d1 - 2 d2 + d3) = 6 sigma^2
     return max(float(np.sqrt(np.mean(np.diff(d, 2) ** 2) / 6.0)), _FLOOR)
-
-
-def _needed(p: Array, fit: CloudFit, shortest: float) -> Array:
-    """Knots that the points ask for: others are taken out one after the other.
-
-    A knot is a jump of the third derivative, ``j = J c`` with the coefficients c. Without it the
-    sum of squares grows by ``|j|^2 / (J G^-1 J^T)``, G being the Gram matrix. By Schwarz's
-    criterion a knot is worth its freedom if that exceeds ``sigma^2 log n``.
-    """
-    from scipy.interpolate import BSpline
-
-    # means over short stretches stand for the points
-    bins = np.floor(fit.s / _BIN).astype(np.int64)
-    _, group, count = np.unique(bins, return_inverse=True, return_counts=True)
-    s = np.bincount(group, fit.s) / count
-    means = np.stack([np.bincount(group, p[:, k]) / count for k in range(2)], axis=-1)
-    limit = fit.scatter**2 * np.log(len(p))
-    knots = fit.knots
-    while len(knots) > 2:
-        inside = np.clip(s, knots[0], knots[-1])
-        B = BSpline.design_matrix(inside, _padded(knots), _DEGREE).toarray()
-        G = B.T @ (count[:, None] * B) + _penalty(knots, len(p), shortest)
-        c = np.linalg.solve(G, B.T @ (count[:, None] * means))
-        J = np.diff(_third(knots), axis=0)
-        growth = ((J @ c) ** 2).sum(axis=1) / np.einsum("ij,ji->i", J, np.linalg.solve(G, J.T))
-        out = _apart(growth, limit)
-        if not len(out):
-            break
-        knots = np.delete(knots, out + 1)
-    return knots
-
-
-def _apart(growth: Array, limit: float) -> NDArray[np.intp]:
-    """Knots below the limit, the least first, none within three of another."""
-    free = np.ones(len(growth), dtype=bool)
-    out = []
-    for k in np.argsort(growth):
-        if growth[k] >= limit:
-            break
-        if free[k]:
-            out.append(k)
-            free[max(k - 3, 0) : k + 4] = False
-    return np.array(out, dtype=np.intp)
