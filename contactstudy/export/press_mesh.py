@@ -12,7 +12,7 @@ import numpy as np
 
 from contactstudy.arrays import Array, IntArray
 from contactstudy.exceptions import InputError
-from contactstudy.export.bodies import Body, rail_body, wheel_body
+from contactstudy.export.hexahedra import Hexahedra, rail_hexahedra, wheel_hexahedra
 from contactstudy.geometry.placement import Geometry
 from contactstudy.geometry.pose import Pose
 from contactstudy.profiles import wheel_curve
@@ -123,7 +123,7 @@ def press_mesh(
             "zone of the wheel"
         )
     raise_if(problems)
-    rail, ring = rail_body(cell, slices), wheel_body(wheel)
+    rail, ring = rail_hexahedra(cell, slices), wheel_hexahedra(wheel)
     nodes = _placed(rail, ring, geometry or Geometry.of(wheel))
     first = len(rail.nodes)
     elements, tread = ring.elements + first, ring.surface + first
@@ -170,7 +170,7 @@ def _contradictions(cell: CellRecipe, wheel: WheelRecipe, geometry: Geometry | N
     ]
 
 
-def _placed(rail: Body, wheel: Body, geometry: Geometry) -> Array:
+def _placed(rail: Hexahedra, wheel: Hexahedra, geometry: Geometry) -> Array:
     """Nodes of both bodies in track axes."""
     pose = geometry.pose
     lower = np.column_stack([rail.nodes[:, 0], pose.track_of_rail(rail.nodes[:, 1:])])

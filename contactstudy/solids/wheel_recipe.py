@@ -6,7 +6,8 @@ import numpy as np
 
 from contactstudy.arrays import Array
 from contactstudy.profiles.named import wheel_curve
-from contactstudy.profiles.wheel_body import WheelDimensions, file_digest
+from contactstudy.profiles.wheel_body import WheelDimensions
+from contactstudy.profiles.wheel_file import file_digest
 from contactstudy.solids.rim import Sizes
 from contactstudy.solids.wheel_section import WheelSection, fine_arcs, wheel_section
 from contactstudy.validation import positive, raise_if

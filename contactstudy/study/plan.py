@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from contactstudy.files import file_digest as digest_of
-from contactstudy.profiles.wheel_body import file_digest
+from contactstudy.profiles.wheel_file import file_digest
 from contactstudy.provenance import versions
 from contactstudy.store import DATASET, Store, store_key
 from contactstudy.study.kinds.passage.execution import execute_run

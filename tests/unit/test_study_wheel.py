@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from contactstudy.exceptions import InputError
-from contactstudy.profiles.wheel_body import wheel_sections
+from contactstudy.profiles.wheel_file import wheel_sections
 from contactstudy.study.kinds.passage import build
 from contactstudy.study.loading import load_study
 from contactstudy.study.plan import plan_study

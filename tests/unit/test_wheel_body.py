@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from contactstudy.exceptions import InputError
-from contactstudy.profiles.wheel_body import WheelDimensions, wheel_dimensions, wheel_sections
+from contactstudy.profiles.wheel_body import WheelDimensions
+from contactstudy.profiles.wheel_file import wheel_dimensions, wheel_sections
 
 CURVED = """
 name = "curved"

@@ -12,7 +12,7 @@ from contactstudy.contact.press import tangent_stiffness
 from contactstudy.contact.surface_contact import SurfaceContact
 from contactstudy.dynamics import integrators
 from contactstudy.halfspace.hertz import HertzContact, contact_modulus, hertz_contact
-from contactstudy.profiles.wheel_body import wheel_dimensions
+from contactstudy.profiles.wheel_file import wheel_dimensions
 from contactstudy.solids.bodies import modes_body, rail_body, wheel_body
 from contactstudy.solids.cache import Body, cached
 from contactstudy.solids.recipe import CellRecipe

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from contactstudy.exceptions import InputError
-from contactstudy.profiles.wheel_body import wheel_dimensions, wheel_sections
+from contactstudy.profiles.wheel_file import wheel_dimensions, wheel_sections
 from contactstudy.study.kinds.passage.runs import PointRun, RunTable
 from contactstudy.study.kinds.passage.scan import ScanTable
 from contactstudy.study.kinds.passage.tables import (

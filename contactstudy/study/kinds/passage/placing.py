@@ -16,7 +16,7 @@ from contactstudy.geometry.smooth_touch import SmoothTouch
 from contactstudy.profiles.curve import ProfileCurve
 from contactstudy.profiles.named import rail_curve, wheel_curve
 from contactstudy.profiles.rail import rail_profile
-from contactstudy.profiles.wheel_body import wheel_dimensions
+from contactstudy.profiles.wheel_file import wheel_dimensions
 from contactstudy.scans import Meeting
 from contactstudy.solids.rim import tread_reach
 from contactstudy.solids.section_outline import fine_reach

@@ -11,7 +11,7 @@ from contactstudy.solids.wheel_recipe import WheelRecipe
 
 
 @dataclass(frozen=True)
-class Body:
+class Hexahedra:
     """One meshed body.
 
     Attributes
@@ -32,7 +32,7 @@ class Body:
     surface: IntArray
 
 
-def rail_body(cell: CellRecipe, slices: int) -> Body:
+def rail_hexahedra(cell: CellRecipe, slices: int) -> Hexahedra:
     """Piece of rail about X = 0, in the rail's own axes, its crown at the origin."""
     section = section_mesh_of(cell)
     n, planes = len(section.nodes), np.arange(slices + 1)
@@ -45,10 +45,10 @@ def rail_body(cell: CellRecipe, slices: int) -> Body:
     element = np.hstack([element, np.stack([q[:, 3], q[:, 3] + n, q[:, 2] + n, q[:, 2]], axis=1)])
     elements = (element[None] + n * planes[:-1, None, None]).reshape(-1, 8)
     ends = np.r_[np.arange(n), n * slices + np.arange(n)]
-    return Body(nodes.reshape(-1, 3), elements, ends, n * planes[:, None] + section.surface)
+    return Hexahedra(nodes.reshape(-1, 3), elements, ends, n * planes[:, None] + section.surface)
 
 
-def wheel_body(recipe: WheelRecipe) -> Body:
+def wheel_hexahedra(recipe: WheelRecipe) -> Hexahedra:
     """Whole ring in the wheel's axes, the lowest point of its tape circle at the origin."""
     section, right = recipe.section(), recipe.angles
     angles = np.concatenate([-right[-2:0:-1], right])  # the top, at pi, is there once
@@ -69,7 +69,7 @@ def wheel_body(recipe: WheelRecipe) -> Body:
         axis=2,
     ).reshape(-1, 8)
     fine = np.flatnonzero(np.abs(angles) <= right[len(recipe.x) // 2] * (1 + 1e-9))
-    return Body(
+    return Hexahedra(
         nodes.reshape(-1, 3),
         elements,
         (n * planes[:, None] + section.bore).ravel(),
