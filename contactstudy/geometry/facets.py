@@ -55,7 +55,7 @@ def wheel_surface(
         Nodes ``i*ny + j``, quadrilaterals as in `grid_mesh`, normals out of the wheel (down).
     """
     x, s = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(s, dtype=float))
-    nodes, _ = PlacedWheel(wheel, radius, Pose()).surface(x.ravel(), s.ravel())
+    nodes, _ = PlacedWheel(wheel, radius, Pose()).points_and_normals(x.ravel(), s.ravel())
     mesh = grid_mesh(nodes.reshape(*x.shape, 3))
     mesh.invert()
     return mesh

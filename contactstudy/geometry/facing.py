@@ -51,7 +51,7 @@ def surface_gap(
     x, s : ndarray (n,)
         Places on the wheel [m].
     """
-    points, normals = wheel.surface(x, s)
+    points, normals = wheel.points_and_normals(x, s)
     arc, gap = rail.project(points[:, 1:] - travel * wheel.pose.vertical)
     n = rail.normal(arc)
     alignment = -(normals[:, 1] * n[:, 0] + normals[:, 2] * n[:, 1])

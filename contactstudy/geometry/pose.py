@@ -102,7 +102,7 @@ class PlacedWheel:
         if self.curve.upper:
             raise InputError(f"profile {self.curve.name}: is a rail's, a wheel's is needed")
 
-    def surface(self, x: Array, s: Array) -> tuple[Array, Array]:
+    def points_and_normals(self, x: Array, s: Array) -> tuple[Array, Array]:
         """Points of the surface of revolution, and its outward normals, in rail axes.
 
         Parameters
@@ -157,4 +157,4 @@ class PlacedWheel:
 
     def lowest(self, s: Array) -> Array:
         """Points (n, 3) of the contact locus at arc lengths s (n,), in rail axes [m]."""
-        return self.surface(self.locus(s), s)[0]
+        return self.points_and_normals(self.locus(s), s)[0]

@@ -97,7 +97,7 @@ def smooth_touch(wheel: PlacedWheel, rail: ProfileCurve, tolerance: float = 1e-1
             f"s = {best:.5g} m of the wheel"
         )
     x = wheel.locus(np.array([best]))
-    place, _ = wheel.surface(x, np.array([best]))
+    place, _ = wheel.points_and_normals(x, np.array([best]))
     n = wheel.pose.track_of_rail(rail.normal(arc))
     y, z = (float(v) for v in rail.point(arc))
     angle = float(np.arctan2(-n[0], n[1]))

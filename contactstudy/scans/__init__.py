@@ -3,14 +3,14 @@
 from contactstudy.scans.cover import uncovered
 from contactstudy.scans.meeting import Meeting, meeting
 from contactstudy.scans.reading import UNITS, read_mesh
-from contactstudy.scans.surface import SurfaceScan, scanned_surface
+from contactstudy.scans.scan import Scan, read_scan
 
 __all__ = [
     "UNITS",
     "Meeting",
-    "SurfaceScan",
+    "Scan",
     "meeting",
     "read_mesh",
-    "scanned_surface",
+    "read_scan",
     "uncovered",
 ]

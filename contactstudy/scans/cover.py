@@ -3,13 +3,13 @@
 import numpy as np
 
 from contactstudy.arrays import Array, BoolArray, IntArray
-from contactstudy.scans.surface import SurfaceScan, developed
+from contactstudy.scans.scan import Scan, developed
 
 _SHOWN = 3
 _NEAR = 1e-3  # distance from the fitted surface [m] within which an edge belongs to it
 
 
-def uncovered(scan: SurfaceScan, x: float, s: float, half_length: float, half_width: float) -> str:
+def uncovered(scan: Scan, x: float, s: float, half_length: float, half_width: float) -> str:
     """Complaint about a hole in the facets around a place, "" where they cover it.
 
     A surface without an edge of its own within a zone covers all of the zone or nothing of it; so
@@ -18,7 +18,7 @@ def uncovered(scan: SurfaceScan, x: float, s: float, half_length: float, half_wi
 
     Parameters
     ----------
-    scan : SurfaceScan
+    scan : Scan
     x, s : float
         Centre of the zone: along the rail, or the tape circle, from the scan's origin, and arc
         length on the generating curve [m].

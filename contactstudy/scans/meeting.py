@@ -14,7 +14,7 @@ from contactstudy.geometry.smooth_touch import SmoothTouch, smooth_touch
 from contactstudy.geometry.touch import FirstTouch, first_touch
 from contactstudy.profiles.curve import ProfileCurve
 from contactstudy.scans.cover import uncovered
-from contactstudy.scans.surface import SurfaceScan
+from contactstudy.scans.scan import Scan
 
 if TYPE_CHECKING:
     import trimesh
@@ -45,8 +45,8 @@ class Meeting:
 
 
 def meeting(
-    rail: SurfaceScan | ProfileCurve,
-    wheel: SurfaceScan | ProfileCurve,
+    rail: Scan | ProfileCurve,
+    wheel: Scan | ProfileCurve,
     radius: float,
     pose: Pose,
     half_length: float,
@@ -56,7 +56,7 @@ def meeting(
 
     Parameters
     ----------
-    rail, wheel : SurfaceScan or ProfileCurve
+    rail, wheel : Scan or ProfileCurve
         The bodies; a scan touches half way along it (rail) or at its lowest circle (wheel).
     radius : float
         Rolling radius at the tape circle [m].
@@ -74,12 +74,12 @@ def meeting(
     InputError
         If the bodies never touch, or their scans do not cover the zone of contact.
     """
-    curves = [b.curve if isinstance(b, SurfaceScan) else b for b in (rail, wheel)]
+    curves = [b.curve if isinstance(b, Scan) else b for b in (rail, wheel)]
     smooth = smooth_touch(PlacedWheel(curves[1], radius, pose), curves[0])
     problems = [
         uncovered(scan, x, s, half_length, half_width)
         for scan, x, s in ((rail, smooth.x, smooth.arc), (wheel, smooth.wheel_x, smooth.wheel_s))
-        if isinstance(scan, SurfaceScan)
+        if isinstance(scan, Scan)
     ]
     if any(problems):
         raise InputError([problem for problem in problems if problem])
@@ -90,9 +90,9 @@ def meeting(
     return Meeting(smooth, facets)
 
 
-def _facets(body: SurfaceScan | ProfileCurve, radius: float, x: np.ndarray) -> trimesh.Trimesh:
+def _facets(body: Scan | ProfileCurve, radius: float, x: np.ndarray) -> trimesh.Trimesh:
     """Triangulated surface of a body in its own axes."""
-    if isinstance(body, SurfaceScan):
+    if isinstance(body, Scan):
         return body.mesh
     low, high = body.s_range
     s = np.linspace(low, high, round((high - low) / _STEP) + 1)[None]

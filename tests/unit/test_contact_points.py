@@ -114,7 +114,7 @@ def test_wheel_rows_interpolate_bilinearly() -> None:
 def test_drop_of_a_cone() -> None:
     cone = PlacedWheel(wheel_curve("cone"), 0.43, Pose())
     x, y = np.array([0.0, 0.0, 0.1, 0.1]), np.array([0.0, 0.02, 0.0, 0.02])
-    points, _ = cone.surface(x, y * np.hypot(1.0, 0.05))
+    points, _ = cone.points_and_normals(x, y * np.hypot(1.0, 0.05))
     np.testing.assert_allclose(points[:, 1], y, atol=1e-17)
     np.testing.assert_allclose(points[:2, 2], [0.0, 1e-3], atol=1e-17)
     np.testing.assert_allclose(points[2:, 2], 0.43 - np.sqrt(np.array([0.43, 0.429]) ** 2 - 0.01))

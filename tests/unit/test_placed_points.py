@@ -139,7 +139,7 @@ def test_gap_is_the_distance_of_finely_sampled_surfaces(case: str) -> None:
         touch.wheel_x + np.linspace(-6e-3, 6e-3, 9), touch.wheel_s + np.linspace(-4e-3, 4e-3, 9)
     )
     gap = surface_gap(wheel, RAIL, touch.travel, x.ravel(), s.ravel()).gap
-    points, _ = wheel.surface(x.ravel(), s.ravel())
+    points, _ = wheel.points_and_normals(x.ravel(), s.ravel())
     points[:, 1:] -= touch.travel * wheel.pose.vertical
     arc = touch.arc + np.arange(-8e-3, 8e-3, step)
     along = np.arange(points[:, 0].min() - 1e-3, points[:, 0].max() + 1e-3, step)
@@ -171,7 +171,7 @@ def test_first_touch_of_triangulated_bodies_converges_to_the_smooth_one(case: st
         along = touch.wheel_x + step * (np.arange(-8, 9) + 0.37)
         arc = touch.wheel_s + step * (np.arange(-10, 11) + 0.29)
         x, s = np.meshgrid(along, arc, indexing="ij")
-        body = wheel.surface(x.ravel(), s.ravel())[0].reshape(*x.shape, 3)
+        body = wheel.points_and_normals(x.ravel(), s.ravel())[0].reshape(*x.shape, 3)
         profile = RAIL.point(touch.arc + step * (np.arange(-20, 21) + 0.41))
         rail = np.empty((2, len(profile), 3))
         rail[0, :, 0], rail[1, :, 0] = touch.x - 20 * step, touch.x + 20 * step

@@ -10,7 +10,7 @@ from contactstudy.profiles.cloud import fit_cloud
 from contactstudy.profiles.named import rail_curve, wheel_curve
 from contactstudy.profiles.scanned_rail import fit_rail_head
 from contactstudy.profiles.scanned_wheel import fit_wheel_tread
-from contactstudy.scans import scanned_surface
+from contactstudy.scans import read_scan
 from contactstudy.verification.cases.scanned_profiles import synthetic_scan
 
 RAIL, S1002 = rail_curve("60E1"), wheel_curve("S1002")
@@ -130,7 +130,7 @@ def test_irregular_and_decimated_triangulations(tmp_path):
     s = np.linspace(-0.02, 0.02, 81)
     for mesh, bound in ((fine, 1e-6), (coarse, 3e-6)):
         mesh.export(tmp_path / "rail.ply")
-        scan = scanned_surface(tmp_path / "rail.ply", "m", "rail", residual_limit=5e-6)
+        scan = read_scan(tmp_path / "rail.ply", "m", "rail", residual_limit=5e-6)
         _, error = RAIL.project(scan.curve.point(s))
         assert np.sqrt(np.mean(error**2)) < bound
         assert "residual" in scan.summary()
@@ -143,9 +143,9 @@ def test_what_is_not_prismatic_is_reported_or_refused(tmp_path):
     vertices[:, 2] += 2e-4 * np.sin(2 * np.pi * vertices[:, 0] / 0.05)
     trimesh.Trimesh(vertices, mesh.faces, process=False).export(tmp_path / "wavy.ply")
     with pytest.raises(InputError, match="not prismatic within 100 um: the residual") as caught:
-        scanned_surface(tmp_path / "wavy.ply", "m", "rail")
+        read_scan(tmp_path / "wavy.ply", "m", "rail")
     assert "scatter from point to point" in str(caught.value)
-    scan = scanned_surface(tmp_path / "wavy.ply", "m", "rail", residual_limit=2e-4)
+    scan = read_scan(tmp_path / "wavy.ply", "m", "rail", residual_limit=2e-4)
     assert 9e-5 < scan.fit.rms < 1.5e-4 and scan.fit.largest > 1.5e-4
 
 

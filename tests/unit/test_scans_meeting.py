@@ -14,8 +14,8 @@ from contactstudy.geometry.smooth_touch import smooth_touch
 from contactstudy.profiles.named import rail_curve, wheel_curve
 from contactstudy.profiles.scanned_rail import fit_rail_head
 from contactstudy.profiles.scanned_wheel import fit_wheel_tread
-from contactstudy.scans import SurfaceScan, meeting, uncovered
-from contactstudy.scans.surface import developed
+from contactstudy.scans import Scan, meeting, uncovered
+from contactstudy.scans.scan import developed
 from contactstudy.study.kinds.passage.scan import ScanTable
 from contactstudy.verification.cases.scanned_profiles import synthetic_scan
 
@@ -27,7 +27,7 @@ def as_scan(body, mesh):
     fit_body = fit_rail_head if body == "rail" else fit_wheel_tread
     fit = fit_body(mesh.vertices, mesh.vertex_normals)
     moved = trimesh.Trimesh(fit.aligned(mesh.vertices), mesh.faces, process=False)
-    return SurfaceScan(f"{body}.stl", body, moved, fit)
+    return Scan(f"{body}.stl", body, moved, fit)
 
 
 MESHES = {
@@ -40,7 +40,7 @@ SCANS = {body: as_scan(body, mesh) for body, mesh in MESHES.items()}
 def without(scan, faces):
     kept = np.delete(np.asarray(scan.mesh.faces), faces, axis=0)
     mesh = trimesh.Trimesh(scan.mesh.vertices, kept, process=False)
-    return SurfaceScan(scan.name, scan.body, mesh, scan.fit)
+    return Scan(scan.name, scan.body, mesh, scan.fit)
 
 
 @given(

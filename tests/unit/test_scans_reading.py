@@ -6,7 +6,7 @@ import trimesh
 
 from contactstudy.exceptions import InputError
 from contactstudy.profiles.named import rail_curve, wheel_curve
-from contactstudy.scans import read_mesh, scanned_surface
+from contactstudy.scans import read_mesh, read_scan
 from contactstudy.verification.cases.scanned_profiles import synthetic_scan
 
 RAIL = synthetic_scan(rail_curve("60E1"), 0.02, step=2e-3)
@@ -159,5 +159,5 @@ def test_loose_flipped_triangles_are_found_on_the_fitted_surface(tmp_path):
     vertices = np.concatenate([RAIL.vertices, RAIL.vertices[faces[near[0]]] + 1e-7])
     faces = np.concatenate([np.delete(faces, near[0], axis=0), [loose[::-1]]])
     path = written(tmp_path, changed(RAIL, faces, vertices), 1.0, "loose.ply")
-    (problem,) = problems_of(scanned_surface, path, "m", "rail")
+    (problem,) = problems_of(read_scan, path, "m", "rail")
     assert "1 flipped triangle on the running surface" in problem

@@ -96,7 +96,7 @@ def _tread(wheel: WheelFlexibility, geometry: Geometry) -> Array:
     # planes through the axle: x = rho sin(theta), the grid's x at the radius of its middle
     rho = geometry.radius - geometry.wheel.point(wheel.y)[:, 1]
     x = np.outer(wheel.x / wheel.recipe.contact_radius, rho).ravel()
-    nodes, _ = geometry.placed.surface(x, np.tile(wheel.y, len(wheel.x)))
+    nodes, _ = geometry.placed.points_and_normals(x, np.tile(wheel.y, len(wheel.x)))
     nodes[:, 1:] -= geometry.touch.travel * geometry.pose.vertical
     return nodes
 

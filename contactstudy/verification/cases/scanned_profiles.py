@@ -19,7 +19,7 @@ from contactstudy.halfspace.patches import press_wheel
 from contactstudy.plot.curves import Plot, curve
 from contactstudy.profiles.curve import ProfileCurve
 from contactstudy.profiles.named import rail_curve, wheel_curve
-from contactstudy.scans import SurfaceScan, meeting, scanned_surface
+from contactstudy.scans import Scan, meeting, read_scan
 from contactstudy.scans.reading import Body
 from contactstudy.verification.check import CaseResult, Check, ResultTable
 
@@ -162,7 +162,7 @@ def scanned_profiles() -> CaseResult:
     )
 
 
-def _scans(exact: dict[str, ProfileCurve]) -> dict[str, SurfaceScan]:
+def _scans(exact: dict[str, ProfileCurve]) -> dict[str, Scan]:
     """Write the scans and read them again."""
     scans = {}
     with tempfile.TemporaryDirectory() as folder:
@@ -174,11 +174,11 @@ def _scans(exact: dict[str, ProfileCurve]) -> dict[str, SurfaceScan]:
             path = Path(folder) / f"{profile.name}.stl"
             mesh.export(path)
             kind: Body = "rail" if profile.upper else "wheel"
-            scans[body] = scanned_surface(path, "mm", kind, origin=at[1])
+            scans[body] = read_scan(path, "mm", kind, origin=at[1])
     return scans
 
 
-def _shape(scan: SurfaceScan, exact: ProfileCurve) -> tuple[list[Check], Plot]:
+def _shape(scan: Scan, exact: ProfileCurve) -> tuple[list[Check], Plot]:
     """Residual, error of the curve and of its curvature."""
     low, high = scan.curve.s_range
     s = np.arange(low + _EDGE, high - _EDGE, 0.1e-3)

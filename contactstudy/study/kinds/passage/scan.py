@@ -9,7 +9,7 @@ from typing import Any, Literal
 from contactstudy.exceptions import InputError
 from contactstudy.geometry.pose import Pose
 from contactstudy.profiles.curve import ProfileCurve
-from contactstudy.scans import Meeting, SurfaceScan, meeting, scanned_surface
+from contactstudy.scans import Meeting, Scan, meeting, read_scan
 from contactstudy.study import quantities as q
 from contactstudy.study.messages import complaint
 from contactstudy.study.section import Section
@@ -63,7 +63,7 @@ class ScanTable(Section):
             ]
         return found
 
-    def surfaces(self) -> tuple[SurfaceScan | None, SurfaceScan | None]:
+    def surfaces(self) -> tuple[Scan | None, Scan | None]:
         """The scans of rail and wheel that there are.
 
         Raises
@@ -71,7 +71,7 @@ class ScanTable(Section):
         InputError
             Listing everything that is wrong with either file.
         """
-        found: list[SurfaceScan | None] = []
+        found: list[Scan | None] = []
         problems: list[str] = []
         for body, origin in (("rail", self.rail_middle), ("wheel", self.wheel_tape)):
             file, unit = getattr(self, body), getattr(self, f"{body}_unit")
@@ -155,6 +155,6 @@ def _read(
     origin: float,
     smoothing: float,
     limit: float,
-) -> SurfaceScan:
+) -> Scan:
     # a file that has changed is read again
-    return scanned_surface(file, unit, body, origin, smoothing, limit)
+    return read_scan(file, unit, body, origin, smoothing, limit)

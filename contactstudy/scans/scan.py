@@ -23,7 +23,7 @@ _NEAR = 10.0  # residual limits within which a facet belongs to the fitted surfa
 
 
 @dataclass(frozen=True, eq=False)
-class SurfaceScan:
+class Scan:
     """A scan in the fitted surface's own axes.
 
     Attributes
@@ -60,14 +60,14 @@ class SurfaceScan:
         )
 
 
-def scanned_surface(
+def read_scan(
     path: str | Path,
     unit: str,
     body: Body,
     origin: float = 0.0,
     smoothing: float = 1e-3,
     residual_limit: float = 1e-4,
-) -> SurfaceScan:
+) -> Scan:
     """Read a scan and fit the smooth surface.
 
     Parameters
@@ -84,7 +84,7 @@ def scanned_surface(
 
     Returns
     -------
-    SurfaceScan
+    Scan
 
     Raises
     ------
@@ -110,7 +110,7 @@ def scanned_surface(
             f"{1e6 * fit.scatter:.4g} um is scatter from point to point; scan a shorter or cleaner "
             "piece, or raise the limit"
         )
-    scan = SurfaceScan(
+    scan = Scan(
         name, body, trimesh.Trimesh(fit.aligned(mesh.vertices), mesh.faces, process=False), fit
     )
     flipped = _facing_inwards(scan, residual_limit)
@@ -125,7 +125,7 @@ def scanned_surface(
     return scan
 
 
-def developed(scan: SurfaceScan, points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def developed(scan: Scan, points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Places on the fitted surface of points (n, 3) in its own axes.
 
     Returns
@@ -147,7 +147,7 @@ def developed(scan: SurfaceScan, points: np.ndarray) -> tuple[np.ndarray, np.nda
     return radius * np.arctan2(points[:, 0], up), s, distance
 
 
-def _facing_inwards(scan: SurfaceScan, limit: float) -> np.ndarray:
+def _facing_inwards(scan: Scan, limit: float) -> np.ndarray:
     """Facets that lie on the fitted surface with their backs outwards."""
     mesh = scan.mesh
     centres, normals = np.asarray(mesh.triangles_center), np.asarray(mesh.face_normals)
