@@ -19,17 +19,14 @@ the others just not touching. The nodes have no such surplus, and suit the augme
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Protocol, TypeVar
+from typing import Annotated, Protocol, TypeVar
 
 import numpy as np
 
 from contactstudy.arrays import Array, BoolArray
 from contactstudy.contact.complementarity import PatchForces, PressedForces, contact_forces, press
 from contactstudy.exceptions import NumericalError
-from contactstudy.validation import positive, raise_if
-
-PENALTY = 1e16
-"""Default penalty in Pa/m."""
+from contactstudy.validation import Above, Parameters, Same, Unit
 
 Solution = TypeVar("Solution", bound=PatchForces)
 
@@ -83,7 +80,7 @@ class Enforcement(Protocol):
 
 
 @dataclass(frozen=True)
-class Penalty:
+class Penalty(Parameters):
     """Pressure = penalty x overlap; needs no start.
 
     Parameters
@@ -97,10 +94,7 @@ class Penalty:
         If the penalty is not positive.
     """
 
-    penalty: float = PENALTY
-
-    def __post_init__(self) -> None:
-        raise_if(positive("contact penalty", self.penalty, "Pa/m"))
+    penalty: Annotated[float, Unit("Pa/m"), Above(0), "pressure per penetration"] = 1e16
 
     @property
     def accuracy(self) -> float:
@@ -125,7 +119,7 @@ class Penalty:
 
 
 @dataclass(frozen=True)
-class AugmentedLagrangian:
+class AugmentedLagrangian(Parameters):
     """No overlap beyond a tolerance.
 
     Parameters
@@ -144,15 +138,11 @@ class AugmentedLagrangian:
         If tolerance or penalty are not positive.
     """
 
-    tolerance: float = 1e-9
-    penalty: float = PENALTY
+    tolerance: Annotated[
+        float, Unit("m"), Above(0), "penetration that the augmented Lagrangian leaves"
+    ] = 1e-9
+    penalty: Annotated[float, Same(Penalty, "penalty")] = Penalty.penalty
     max_updates: int = 50
-
-    def __post_init__(self) -> None:
-        raise_if(
-            positive("tolerance of the penetration", self.tolerance, "m")
-            + positive("contact penalty", self.penalty, "Pa/m")
-        )
 
     @property
     def accuracy(self) -> float:

@@ -7,18 +7,18 @@ Vertical contact is unilateral: lambda >= 0 always; lateral contact (`bilateral`
 
 import math
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Annotated, ClassVar
 
 import numpy as np
 
 from contactstudy.exceptions import NumericalError
-from contactstudy.validation import positive, raise_if
+from contactstudy.validation import Above, Parameters, Unit
 
 _ITERATIONS = 100
 
 
 @dataclass(frozen=True)
-class LinearSpring:
+class LinearSpring(Parameters):
     """The paper's constant k_r: lambda = static load - k_r g, zero once that is a tension.
 
     The static load already sits on the rail (eq. 5), so k_r carries the dynamic part only. The
@@ -31,10 +31,7 @@ class LinearSpring:
         k_r [N/m].
     """
 
-    stiffness: float
-
-    def __post_init__(self) -> None:
-        raise_if(positive("contact stiffness k_r", self.stiffness, "N/m"))
+    stiffness: Annotated[float, Unit("N/m"), Above(0), "contact stiffness k_r"]
 
     @property
     def softness(self) -> float:
@@ -50,7 +47,7 @@ class RigidContact:
 
 
 @dataclass(frozen=True)
-class HertzSpring:
+class HertzSpring(Parameters):
     """Hertz's nonlinear law of the total force, lambda = k_H (-g)^(3/2), zero when apart.
 
     Parameters
@@ -59,11 +56,8 @@ class HertzSpring:
         k_H [N/m^1.5], see `contactstudy.halfspace.hertz`.
     """
 
-    stiffness: float
+    stiffness: Annotated[float, Unit("N/m**1.5"), Above(0), "Hertz stiffness k_H"]
     softness: ClassVar[float] = math.inf
-
-    def __post_init__(self) -> None:
-        raise_if(positive("Hertz stiffness k_H", self.stiffness, "N/m^1.5"))
 
 
 @dataclass(frozen=True)

@@ -2,10 +2,11 @@
 
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import Annotated
 
 import numpy as np
 
-from contactstudy.contact.augmented import PENALTY, AugmentedLagrangian, Enforcement, Penalty
+from contactstudy.contact.augmented import AugmentedLagrangian, Enforcement, Penalty
 from contactstudy.contact.moving_wheel import MovingWheel
 from contactstudy.geometry.placement import Geometry
 from contactstudy.geometry.points import ContactPoints
@@ -15,16 +16,12 @@ from contactstudy.geometry.tread import candidate_list, mesh_problems, wheel_poi
 from contactstudy.solids.wheel import WheelFlexibility
 from contactstudy.solids.wheel_modes import WheelModes, residual_flexibility
 from contactstudy.track.meshed import MeshedTrack
-from contactstudy.validation import not_negative, one_of, positive, raise_if
+from contactstudy.validation import AtLeast, AtMost, Parameters, Same
 from contactstudy.vehicle import Vehicle, with_wheel_modes
-
-WHEEL_DAMPING = 1e-3
-"""Damping ratio of the wheel's modes, an assumption: D. J. Thompson, Railway Noise and Vibration
-(2009), ch. 6, uses 1e-2, 1e-3 and 1e-4 for one, no and more waves round a wheel."""
 
 
 @dataclass(frozen=True, eq=False)
-class SurfaceContact:
+class SurfaceContact(Parameters):
     """A meshed wheel that touches a meshed rail.
 
     Parameters
@@ -38,7 +35,8 @@ class SurfaceContact:
         Elastic modes of the wheel, which then move with their inertia; without them it is
         quasi-static (or rigid, if it has no flexibility), all its inertia in the wheel's dof.
     wheel_damping : float
-        Damping ratio of the modes.
+        Damping ratio of the modes, an assumption: D. J. Thompson, Railway Noise and Vibration
+        (2009), ch. 6, uses 1e-2, 1e-3 and 1e-4 for one, no and more waves round a wheel.
     penalty : float
         Pressure per penetration in Pa/m.
     quadrature : {"gauss", "nodes"}
@@ -56,18 +54,12 @@ class SurfaceContact:
     wheel: WheelFlexibility
     geometry: Geometry | None = None
     modes: WheelModes | None = field(default=None, repr=False)
-    wheel_damping: float = WHEEL_DAMPING
-    penalty: float = PENALTY
-    quadrature: Quadrature = "gauss"
-    tolerance: float | None = None
-
-    def __post_init__(self) -> None:
-        problems = positive("penalty", self.penalty, "Pa/m")
-        problems += not_negative("wheel_damping", self.wheel_damping)
-        problems += one_of("quadrature", self.quadrature, ("gauss", "nodes"))
-        if self.tolerance is not None:
-            problems += positive("tolerance of the penetration", self.tolerance, "m")
-        raise_if(problems)
+    wheel_damping: Annotated[float, AtLeast(0), AtMost(1), "damping ratio of its modes"] = 1e-3
+    penalty: Annotated[float, Same(Penalty, "penalty")] = Penalty.penalty
+    quadrature: Annotated[
+        Quadrature, "where contact is enforced: Gauss points of the wheel's facets, or nodes"
+    ] = "gauss"
+    tolerance: Annotated[float | None, Same(AugmentedLagrangian, "tolerance")] = None
 
     @cached_property
     def points(self) -> ContactPoints:

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Literal
+from typing import Annotated, Literal
 
 import numpy as np
 
@@ -12,13 +12,13 @@ from contactstudy.track.hermite import BeamElement
 from contactstudy.track.inner_dofs import InnerDofs, pad_parts
 from contactstudy.track.model import Direction, Track, WinklerFoundation
 from contactstudy.track.supports import PadRow, SupportedRail, add_supports, chain_of
-from contactstudy.validation import one_of, raise_if
+from contactstudy.validation import AtLeast, Parameters
 
 RailTheory = Literal["euler", "timoshenko"]
 
 
 @dataclass(frozen=True)
-class BeamTrack(AssembledTrack):
+class BeamTrack(AssembledTrack, Parameters):
     """A discretised track whose rail is a chain of equal beam elements.
 
     Parameters
@@ -41,24 +41,17 @@ class BeamTrack(AssembledTrack):
     """
 
     track: Track
-    theory: RailTheory = "euler"
-    elements_per_bay: int = 4
-    element_compliance: bool = False
-    direction: Direction = "Z"
-
-    def __post_init__(self) -> None:
-        problems = one_of("rail_theory", self.theory, ("euler", "timoshenko"))
-        problems += one_of("direction", self.direction, ("Z", "Y"))
-        if self.elements_per_bay != int(self.elements_per_bay) or self.elements_per_bay < 1:
-            problems.append(
-                f"elements_per_bay = {self.elements_per_bay}: must be a whole number of at least 1"
-            )
-        raise_if(problems)
+    theory: Annotated[RailTheory, "theory of the beam"] = "euler"
+    elements_per_bay: Annotated[int, AtLeast(1), "beam elements between supports"] = 4
+    element_compliance: Annotated[bool, "whether the loaded element's own compliance counts"] = (
+        False
+    )
+    direction: Annotated[Direction, "vertical or lateral"] = "Z"
 
     @property
     def n_elements(self) -> int:
         """Number of beam elements."""
-        return int(self.elements_per_bay) * self.track.n_bays
+        return self.elements_per_bay * self.track.n_bays
 
     @cached_property
     def element(self) -> BeamElement:
