@@ -4,31 +4,51 @@ Wheelset's axes for shift, yaw and roll: to the right, clockwise seen from above
 """
 
 import math
-from dataclasses import dataclass
+import re
+from dataclasses import dataclass, field, fields
 from functools import lru_cache
-from typing import Literal
+from typing import Annotated, Any, Literal
 
 from contactstudy.exceptions import InputError, NumericalError
 from contactstudy.geometry.placement import Geometry
 from contactstudy.geometry.pose import Pose
 from contactstudy.profiles.curve import ProfileCurve
-from contactstudy.validation import not_negative, positive, raise_if
+from contactstudy.units import UnitError
+from contactstudy.validation import (
+    Above,
+    AtLeast,
+    AtMost,
+    Parameters,
+    Same,
+    Unit,
+    Written,
+)
+from contactstudy.vehicle import WheelColumn
 
 Side = Literal["left", "right"]
 SIDES: tuple[Side, ...] = ("left", "right")
 _LARGEST_ROLL = 0.1
+_RATIO = re.compile(r"\s*1\s*:\s*(\d+(?:\.\d+)?)\s*")
 
 
-@dataclass(frozen=True, eq=False)
-class Wheelset:
-    """Two equal wheels on an axle over two equal rails.
+def _of_ratio(value: Any, unit: str) -> Any:
+    """Angle of a ratio like "1:40"; anything else as it is."""
+    if isinstance(value, str) and (match := _RATIO.fullmatch(value)):
+        if float(match[1]) < 5:
+            raise UnitError("must be 1:5 or flatter")
+        return math.atan(1.0 / float(match[1]))
+    return value
+
+
+SMALL_ANGLE = (Unit("rad"), AtLeast(-0.2), AtMost(0.2))
+
+
+@dataclass(frozen=True)
+class WheelsetDimensions(Parameters):
+    """How two equal wheels on an axle fit over two equal rails.
 
     Parameters
     ----------
-    wheel, rail : ProfileCurve
-        Profiles, as seen from the track's centre for either side.
-    radius : float
-        Rolling radius at the tape circles [m].
     rail_inclination : float
         Of both rails towards the track's centre [rad].
     gauge, gauge_depth : float
@@ -37,23 +57,46 @@ class Wheelset:
         Distance between the flanges' backs, and of a tape circle outside its back [m].
     """
 
-    wheel: ProfileCurve
-    rail: ProfileCurve
-    radius: float
-    rail_inclination: float = math.atan(1 / 40)
-    gauge: float = 1.435
-    gauge_depth: float = 0.014
-    flange_backs: float = 1.360
-    tape_line: float = 0.070
+    rail_inclination: Annotated[
+        float, *SMALL_ANGLE, Written(_of_ratio, "a ratio like 1:40"), "of the rails, inwards"
+    ] = math.atan(1 / 40)
+    gauge: Annotated[float, Unit("m"), Above(0), "distance of the rails' inner faces"] = 1.435
+    gauge_depth: Annotated[
+        float, Unit("m"), Above(0), "depth below the rails' tops at which the gauge is measured"
+    ] = 0.014
+    flange_backs: Annotated[
+        float, Unit("m"), Above(0), "distance between the backs of the flanges"
+    ] = 1.360  # fmt: skip
+    tape_line: Annotated[
+        float, Unit("m"), AtLeast(0), "distance of the tape circle from the flange's back"
+    ] = 0.070
 
-    def __post_init__(self) -> None:
-        raise_if(
-            positive("wheel radius", self.radius, "m")
-            + positive("gauge", self.gauge, "m")
-            + positive("gauge depth", self.gauge_depth, "m")
-            + positive("distance of the flange backs", self.flange_backs, "m")
-            + not_negative("tape line", self.tape_line, "m")
-        )
+
+@dataclass(frozen=True, eq=False)
+class Wheelset(WheelsetDimensions):
+    """Two equal wheels on an axle over two equal rails.
+
+    Parameters
+    ----------
+    wheel, rail : ProfileCurve
+        Profiles, as seen from the track's centre for either side.
+    radius : float
+        Rolling radius at the tape circles [m].
+    rail_inclination, gauge, gauge_depth, flange_backs, tape_line : float
+        See `WheelsetDimensions`.
+    """
+
+    wheel: ProfileCurve = field(kw_only=True)
+    rail: ProfileCurve = field(kw_only=True)
+    radius: Annotated[float, Same(WheelColumn, "wheel_radius")] = field(kw_only=True)
+
+    @classmethod
+    def of(
+        cls, dimensions: WheelsetDimensions, wheel: ProfileCurve, rail: ProfileCurve, radius: float
+    ) -> "Wheelset":
+        """Wheelset of given dimensions."""
+        values = {f.name: getattr(dimensions, f.name) for f in fields(WheelsetDimensions)}
+        return cls(**values, wheel=wheel, rail=rail, radius=radius)
 
     @property
     def half(self) -> float:

@@ -3,6 +3,7 @@
 ``r(X) > 0`` raises the running surface; X in m along the rail.
 """
 
+from contactstudy.irregularity.chosen import Irregularity
 from contactstudy.irregularity.estimate import (
     SpectralEstimate,
     ThirdOctaves,
@@ -33,6 +34,7 @@ __all__ = [
     "Convention",
     "FadedProfile",
     "HarmonicProfile",
+    "Irregularity",
     "MeasuredProfile",
     "Profile",
     "RepeatWarning",

@@ -7,6 +7,7 @@ from contactstudy.report.quantity import quantity
 from contactstudy.report.tables import Block, table
 from contactstudy.study.kinds.passage.schema import SECTIONS
 from contactstudy.study.results import StudyResults
+from contactstudy.validation import entries
 
 _TITLES = {
     "irregularity": "Irregularity",
@@ -62,10 +63,9 @@ def _parameter(results: StudyResults, section: str, key: str, value: Any) -> lis
 
 def _origin(section: str, key: str, value: Any) -> str:
     """Whether a value is the program's default or was set by the study."""
-    for name, field in SECTIONS[section].model_fields.items():
-        if (field.alias or name) == key:
-            return "default" if _equal(field.default, value) else "study"
-    return "study"
+    parameter = entries(SECTIONS[section])[key].parameter
+    defaults = parameter.by.defaults.values() if parameter.by else [parameter.default]
+    return "default" if any(_equal(default, value) for default in defaults) else "study"
 
 
 def _equal(default: Any, value: Any) -> bool:

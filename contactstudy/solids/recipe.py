@@ -1,12 +1,22 @@
 """What a condensed rail cell is made from."""
 
 from dataclasses import dataclass
+from typing import Annotated
 
-from contactstudy.exceptions import InputError
+from contactstudy.validation import (
+    Above,
+    AtLeast,
+    AtMost,
+    Key,
+    Naming,
+    Parameters,
+    Unit,
+    complaint,
+)
 
 
 @dataclass(frozen=True)
-class CellRecipe:
+class CellRecipe(Parameters):
     """Mesh and reduction of one rail cell; two equal recipes give equal cells.
 
     Attributes
@@ -34,45 +44,46 @@ class CellRecipe:
     """
 
     profile: str = "60E1"
-    size: float = 0.002
-    length: float = 0.1
+    size: Annotated[
+        float, Unit("m"), AtLeast(2e-4), AtMost(0.008), Key("mesh_size"),
+        "element size at the running surfaces",
+    ] = 0.002  # fmt: skip
+    length: Annotated[
+        float, Unit("m"), Above(0), AtMost(0.5), Key("cell_length"),
+        "length of a condensed cell of rail; it divides the support spacing",
+    ] = 0.1  # fmt: skip
     contact_half_width: float = 0.010
-    interface_modes: int = 14
-    internal_modes: int = 8
-    coarse: float = 0.009
+    interface_modes: Annotated[
+        int, AtLeast(3), AtMost(60), "generalised modes of a plane between two cells"
+    ] = 14
+    internal_modes: Annotated[
+        int, AtLeast(0), AtMost(40), "vibration modes of a cell between fixed planes"
+    ] = 8
+    coarse: Annotated[
+        float, Unit("m"), AtLeast(0.002), AtMost(0.02), Key("coarse_mesh_size"),
+        "largest element of the rail's section",
+    ] = 0.009  # fmt: skip
     contact_centre: float = 0.0
     symmetric: bool = True
-    youngs_modulus: float = 210e9
-    poisson_ratio: float = 0.3
-    density: float = 7850.0
+    youngs_modulus: Annotated[float, Unit("Pa"), Above(0), Key(""), "Young's modulus"] = 210e9
+    poisson_ratio: Annotated[
+        float, AtLeast(0), AtMost(0.49), Key(""), "Poisson's ratio"
+    ] = 0.3  # fmt: skip
+    density: Annotated[float, Unit("kg/m^3"), Above(0), Key(""), "density of the steel"] = 7850.0
 
-    def __post_init__(self) -> None:
-        """Refuse what cannot be meshed or reduced; all problems at once."""
+    def problems(self, key: Naming) -> list[str]:
+        """Sizes that do not fit each other, and fewer modes than the section has rigid motions."""
         problems = []
-        if not 0 < self.size <= 0.008:
-            problems.append(f"size = {self.size} m: must be above 0 and at most 0.008 m")
-        elif not 4 * self.size <= self.length <= 0.5:
-            problems.append(
-                f"cell length = {self.length} m: must be at least 4 elements "
-                f"({4 * self.size} m) and at most 0.5 m"
-            )
-        if not self.size <= self.coarse <= 0.03:
-            problems.append(
-                f"coarse = {self.coarse} m: must lie between the size at the running surface "
-                f"({self.size} m) and 0.03 m"
-            )
-        least = 3 if self.symmetric else 6
-        if not least <= self.interface_modes <= 60:
-            problems.append(
-                f"interface_modes = {self.interface_modes}: must lie between {least} "
-                "(the section's rigid motions) and 60"
-            )
-        if not 0 <= self.internal_modes <= 40:
-            problems.append(f"internal_modes = {self.internal_modes}: must lie between 0 and 40")
-        if not self.density > 0:
-            problems.append(f"density = {self.density} kg/m^3: must be positive")
-        if problems:
-            raise InputError(problems)
+        if self.length < 4 * self.size:
+            allowed = f"must be at least 4 elements of {key('size')}, {4 * self.size:g} m"
+            problems.append(complaint(key("length"), self.length, allowed))
+        if self.coarse < self.size:
+            allowed = f"must be at least {key('size')}, {self.size:g} m"
+            problems.append(complaint(key("coarse"), self.coarse, allowed))
+        if not self.symmetric and self.interface_modes < 6:
+            allowed = "must be at least 6, the rigid motions of a whole section"
+            problems.append(complaint(key("interface_modes"), self.interface_modes, allowed))
+        return problems
 
     @property
     def n_slices(self) -> int:

@@ -1,6 +1,7 @@
 """What an elastic wheel is made from."""
 
 from dataclasses import dataclass, field
+from typing import Annotated
 
 import numpy as np
 
@@ -8,9 +9,19 @@ from contactstudy.arrays import Array
 from contactstudy.profiles.named import wheel_curve
 from contactstudy.profiles.wheel_body import WheelDimensions
 from contactstudy.profiles.wheel_file import file_digest
+from contactstudy.solids.recipe import CellRecipe
 from contactstudy.solids.rim import Sizes
 from contactstudy.solids.wheel_section import WheelSection, fine_arcs, wheel_section
-from contactstudy.validation import positive, raise_if
+from contactstudy.validation import (
+    Above,
+    AtMost,
+    Key,
+    Naming,
+    Parameters,
+    Same,
+    Unit,
+    complaint,
+)
 
 FAR_STEP = np.pi / 15
 """Largest angle between two planes in rad away from the contact, enough for statics."""
@@ -21,7 +32,7 @@ wheel."""
 
 
 @dataclass(frozen=True)
-class WheelRecipe:
+class WheelRecipe(Parameters):
     """What an elastic wheel is made from; two equal recipes give equal wheels.
 
     Attributes
@@ -52,40 +63,41 @@ class WheelRecipe:
     profile: str = "cylinder"
     rail_profile: str = "60E1"
     dimensions: WheelDimensions = field(default_factory=WheelDimensions)
-    size: float = 0.002
-    contact_half_length: float = 0.012
-    contact_half_width: float = 0.008
-    youngs_modulus: float = 210e9
-    poisson_ratio: float = 0.3
-    density: float = 7850.0
+    size: Annotated[float, Same(CellRecipe, "size"), Key("mesh_size")] = CellRecipe.size
+    contact_half_length: Annotated[
+        float, Unit("m"), Above(0), "half the finely meshed tread along the rail"
+    ] = 0.012
+    contact_half_width: Annotated[
+        float, Unit("m"), Above(0), "half the finely meshed tread across the rail"
+    ] = 0.008
+    youngs_modulus: Annotated[float, Same(CellRecipe, "youngs_modulus"), Key("")] = (
+        CellRecipe.youngs_modulus
+    )
+    poisson_ratio: Annotated[float, Same(CellRecipe, "poisson_ratio"), Key("")] = (
+        CellRecipe.poisson_ratio
+    )
+    density: Annotated[float, Same(CellRecipe, "density"), Key("")] = CellRecipe.density
     symmetric: bool = True
     contact_centre: float = 0.0
-    far_step: float = FAR_STEP
+    far_step: Annotated[float, Unit("rad"), Above(0), AtMost(np.pi / 6), Key("")] = FAR_STEP
     profile_digest: str = field(init=False, default="")
 
-    def __post_init__(self) -> None:
-        """Refuse what cannot be meshed; all problems at once."""
+    def problems(self, key: Naming) -> list[str]:
+        """Zones that cannot be meshed."""
         problems = []
-        if not 0 < self.size <= 0.008:
-            problems.append(f"wheel size = {self.size} m: must be above 0 and at most 0.008 m")
-        for name, value in (
-            ("contact_half_length", self.contact_half_length),
-            ("contact_half_width", self.contact_half_width),
-        ):
-            if not self.size <= value <= 0.04:
-                problems.append(
-                    f"wheel {name} = {value} m: must be at least the size and at most 0.04 m"
-                )
+        for name, most in (("contact_half_length", 0.040), ("contact_half_width", 0.023)):
+            value = getattr(self, name)
+            if not self.size <= value <= most:
+                least = f"{key('size')}, {self.size:g} m"
+                allowed = f"must be at least {least}, and at most {most} m"
+                problems.append(complaint(key(name), value, allowed))
         if self.symmetric and self.contact_centre != 0.0:
-            problems.append(
-                f"wheel contact_centre = {self.contact_centre} m: must be 0 on a symmetric wheel"
-            )
-        if not 0 < self.far_step <= np.pi / 6:
-            problems.append(
-                f"wheel far_step = {self.far_step} rad: must be above 0 and at most pi/6"
-            )
-        problems += positive("wheel density", self.density, "kg/m^3")
-        raise_if(problems)
+            allowed = "must be 0 on a symmetric wheel"
+            problems.append(complaint(key("contact_centre"), self.contact_centre, allowed))
+        return problems
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
         object.__setattr__(self, "profile_digest", file_digest(self.profile))
 
     @property

@@ -97,10 +97,11 @@ class Journey(Parameters):
         return np.array([int(np.argmin(np.abs(x - one))) for one in at], dtype=np.int64)
 
     def not_passed(self, name: str, at: Sequence[float]) -> list[str]:
-        """Complaints about positions X that the leading wheel does not pass."""
+        """Complaints about positions X, a list called `name`, that the wheel does not pass."""
+        where = f"the wheel must pass it, {self.start:g} to {self.end:g} m"
         return [
-            f"{name} = {x:g} m: the wheel must pass it, from {self.start:g} to {self.end:g} m"
-            for x in at
+            complaint(f"{name}.{i}", x, where)
+            for i, x in enumerate(at)
             if not self.start <= x <= self.end
         ]
 

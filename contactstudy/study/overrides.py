@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Iterable, Mapping
-from typing import Any, Literal, get_args, get_origin
+from typing import Any
 
-from contactstudy.study.kinds.passage.schema import SECTIONS, SOLVERS
-from contactstudy.study.section import Section
+from contactstudy.validation import Table, entries
 
 
 def override(
-    data: dict[str, Any], texts: Iterable[str], tables: Mapping[str, type[Section]] = SECTIONS
+    data: dict[str, Any],
+    texts: Iterable[str],
+    tables: Mapping[str, Table],
+    groups: Mapping[str, Table] | None = None,
 ) -> list[str]:
     """Set dotted keys of a study file's content, in place.
 
@@ -24,8 +26,10 @@ def override(
         Content as TOML gives it.
     texts : iterable of str
         ``key=value``; values as in TOML, quotes around text may be left out.
-    tables : mapping of str to type of Section
+    tables : mapping of str to type of Parameters or Variants
         The tables of the file.
+    groups : mapping, optional
+        The same for tables in tables, "runs" for ``[runs.NAME]``.
 
     Returns
     -------
@@ -34,32 +38,34 @@ def override(
     """
     problems, given = [], set()
     for text in texts:
-        problems += _override(data, text, tables)
+        problems += _override(data, text, tables, groups or {})
         given.add(text.partition("=")[0].strip())
-    for name, section in tables.items():
-        _leave_out(data.get(name), section, name, given)
-    runs = data.get("runs")
-    for name, run in runs.items() if isinstance(runs, dict) else ():
-        if isinstance(run, dict) and run.get("solver") in SOLVERS:
-            _leave_out(run, SOLVERS[run["solver"]], f"runs.{name}", given)
+    for name, table in tables.items():
+        _leave_out(data.get(name), table, name, given)
+    for group, table in (groups or {}).items():
+        members = data.get(group)
+        for name, member in members.items() if isinstance(members, dict) else ():
+            _leave_out(member, table, f"{group}.{name}", given)
     return problems
 
 
-def _leave_out(table: Any, model: type[Section], path: str, given: set[str]) -> None:
+def _leave_out(data: Any, table: Table, path: str, given: set[str]) -> None:
     """Take keys out of a table whose overridden deciding key does not let them apply."""
-    if not isinstance(table, dict):
-        return
-    for field, (decider, values) in model.applies.items():
-        key = model.model_fields[field].alias or field
+    for key, entry in entries(table).items() if isinstance(data, dict) else ():
         if (
-            f"{path}.{decider}" in given
+            key in data
             and f"{path}.{key}" not in given
-            and table.get(decider) not in values
+            and any(
+                f"{path}.{decider}" in given and data.get(decider) not in values
+                for decider, values in entry.conditions
+            )
         ):
-            table.pop(key, None)
+            del data[key]
 
 
-def _override(data: dict[str, Any], text: str, tables: Mapping[str, type[Section]]) -> list[str]:
+def _override(
+    data: dict[str, Any], text: str, tables: Mapping[str, Table], groups: Mapping[str, Table]
+) -> list[str]:
     key, equals, value = text.partition("=")
     parts = key.strip().split(".")
     if not equals or not all(parts):
@@ -70,20 +76,13 @@ def _override(data: dict[str, Any], text: str, tables: Mapping[str, type[Section
         if not isinstance(table, dict):
             return [f"--set {text}: {key.strip()} goes through a value that is no table"]
     read = _value(value.strip())
-    if not isinstance(read, str) and len(parts) == 2 and _only_text(tables.get(parts[0]), parts[1]):
-        read = value.strip()  # 60E1 is a profile, not 600
+    found = (tables if len(parts) == 2 else groups).get(parts[0])
+    if found is not None and not isinstance(read, str):
+        entry = entries(found).get(parts[-1])
+        if entry is not None and entry.parameter.only_text:
+            read = value.strip()  # 60E1 is a profile, not 600
     table[parts[-1]] = read
     return []
-
-
-def _only_text(model: type[Section] | None, key: str) -> bool:
-    """Whether a key of a table takes nothing but text."""
-    if model is None or key not in model.model_fields:
-        return False
-    kind = model.model_fields[key].annotation
-    return kind is str or (
-        get_origin(kind) is Literal and all(isinstance(v, str) for v in get_args(kind))
-    )
 
 
 def _value(text: str) -> Any:

@@ -78,7 +78,9 @@ def collect(plan: Plan) -> StudyResults:
     runs = {name: run.value for name, run in found.items()}
     compare_from = study.journey.start + study.journey.fade_in
     seed = plan.inputs["irregularity"].get("seed")
-    mesh = asdict(recipe(study)) if study.runs and study.track.rail != "given" else None
+    mesh = (
+        asdict(recipe(study)) if study.runs and study.track.rail.profile_name is not None else None
+    )
     return StudyResults(
         name=study.name,
         title=study.title,

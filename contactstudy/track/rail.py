@@ -4,13 +4,13 @@ from dataclasses import dataclass, field
 from typing import Annotated, Literal
 
 from contactstudy.profiles.section import SectionProperties
+from contactstudy.solids.recipe import CellRecipe
 from contactstudy.validation import (
     Above,
-    AtLeast,
-    AtMost,
     Key,
     Naming,
     Parameters,
+    Same,
     Unit,
     positive,
 )
@@ -47,9 +47,9 @@ class Rail(Parameters):
     """
 
     section: SectionProperties = NOMINAL_60E1
-    youngs_modulus: Annotated[float, Unit("Pa"), Above(0), "Young's modulus"] = 210e9
-    poisson_ratio: Annotated[float, AtLeast(0), AtMost(0.49), "Poisson's ratio"] = 0.3
-    density: Annotated[float, Unit("kg/m^3"), Above(0), "density of the rail's steel"] = 7850.0
+    youngs_modulus: Annotated[float, Same(CellRecipe, "youngs_modulus")] = CellRecipe.youngs_modulus
+    poisson_ratio: Annotated[float, Same(CellRecipe, "poisson_ratio")] = CellRecipe.poisson_ratio
+    density: Annotated[float, Same(CellRecipe, "density")] = CellRecipe.density
     profile_name: str | None = "60E1"
 
     def problems(self, key: Naming) -> list[str]:

@@ -15,6 +15,7 @@ from contactstudy.validation.metadata import (
     AtLeast,
     AtMost,
     By,
+    File,
     Key,
     Same,
     Unit,
@@ -23,7 +24,15 @@ from contactstudy.validation.metadata import (
     Written,
     by,
 )
-from contactstudy.validation.tables import Entry, Table, entries, read, resolved, units
+from contactstudy.validation.tables import (
+    Entry,
+    Table,
+    entries,
+    read,
+    resolve_paths,
+    resolved,
+    units,
+)
 
 __all__ = [
     "Above",
@@ -31,6 +40,7 @@ __all__ = [
     "AtMost",
     "By",
     "Entry",
+    "File",
     "Key",
     "Naming",
     "Parameter",
@@ -52,6 +62,7 @@ __all__ = [
     "positive",
     "raise_if",
     "read",
+    "resolve_paths",
     "resolved",
     "units",
     "unknown",

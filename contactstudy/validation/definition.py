@@ -37,6 +37,7 @@ class Parameter:
     variants : Variants or None
         The parameter is an object that a deciding key chooses.
     written : Written or None
+    file : File or None
     """
 
     name: str
@@ -49,6 +50,7 @@ class Parameter:
     by: m.By | None = None
     variants: m.Variants | None = None
     written: m.Written | None = None
+    file: m.File | None = None
 
     @property
     def unit(self) -> str:
@@ -180,6 +182,7 @@ def _parameter(field: "dataclasses.Field[Any]", hint: Any) -> Parameter:
         by=found.get(m.By),
         variants=found.get(m.Variants),
         written=found.get(m.Written, base.written),
+        file=found.get(m.File, base.file),
     )
 
 

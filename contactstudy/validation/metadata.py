@@ -41,6 +41,19 @@ class Key:
 
 
 @dataclass(frozen=True)
+class File:
+    """The value is a file's name, relative to the study file that it stands in.
+
+    Attributes
+    ----------
+    or_name : bool
+        It may also be the name of something shipped, which has no suffix.
+    """
+
+    or_name: bool = False
+
+
+@dataclass(frozen=True)
 class Same:
     """The parameter `name` of another class: its unit, limits and meaning."""
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Any, Literal, cast
 
 from contactstudy.exceptions import InputError
@@ -79,7 +80,7 @@ def _of_variants(variants: Variants) -> dict[str, Entry]:
     }
 
 
-def read(table: Table, data: Any, path: str) -> tuple[Any, list[str]]:
+def read(table: Table, data: Any, path: str, **others: Any) -> tuple[Any, list[str]]:
     """Object that a table of a study file describes, and everything that is wrong with it.
 
     Parameters
@@ -89,11 +90,14 @@ def read(table: Table, data: Any, path: str) -> tuple[Any, list[str]]:
         The table as TOML gives it.
     path : str
         Its dotted name.
+    **others
+        Values of fields that have no key.
 
     Returns
     -------
     object or None
-        None if anything is wrong.
+        None if a value is wrong. If only rules over several values are broken it is there, to be
+        checked further, and must not be used.
     list of str
     """
     if not isinstance(data, Mapping):
@@ -101,48 +105,67 @@ def read(table: Table, data: Any, path: str) -> tuple[Any, list[str]]:
     known = entries(table)
     problems = [unknown(path, key, list(known)) for key in data if key not in known]
     chosen: dict[str, str] = {}
-    made, wrong = _made(table, data, path, chosen)
+    made, wrong = _made(table, data, path, chosen, others)
     problems += wrong
     for key in sorted(key for key in data if key in known):
         for decider, values in known[key].conditions:
             if decider in chosen and chosen[decider] not in values:
                 problems.append(only_with(f"{path}.{key}", decider, values, chosen[decider]))
                 break
-    return (None if problems else made), problems
+    return made, problems
 
 
 def _made(
-    table: Table, data: Mapping[str, Any], path: str, chosen: dict[str, str]
+    table: Table,
+    data: Mapping[str, Any],
+    path: str,
+    chosen: dict[str, str],
+    others: Mapping[str, Any],
 ) -> tuple[Any, list[str]]:
     if isinstance(table, Variants):
         name = data.get(table.key, table.default)
-        if name not in table.classes:
+        if not isinstance(name, str) or name not in table.classes:
             hint = did_you_mean(name, table.classes) if isinstance(name, str) else ""
             allowed = f"must be {any_of(table.classes)}{hint}"
             return None, [complaint(f"{path}.{table.key}", name, allowed)]
         chosen[table.key] = name
         made = table.classes[name]
-        return (None, []) if made is None else _made(made, data, path, chosen)
+        return (None, []) if made is None else _made(made, data, path, chosen, others)
     own = parameters(table)
-    values, problems = {}, []
+    given = {p.name: data[p.key] for p in own if p.key in data and p.variants is None}
+    wrong = check(table, given, naming(table, path))[1]
+    parts, problems, failed = {}, list(wrong), bool(wrong)
     for p in own:
         if p.variants is not None:
-            values[p.name], wrong = _made(p.variants, data, path, chosen)
+            parts[p.name], wrong = _made(p.variants, data, path, chosen, {})
             problems += wrong
-        elif p.key and p.key in data:
-            values[p.name] = data[p.key]
-    if problems:
-        components = {p.name for p in own if p.variants is not None}
-        plain = {name: value for name, value in values.items() if name not in components}
-        return None, check(table, plain, naming(table, path))[1] + problems
-    given = frozenset(p.name for p in own if p.key in data)
+            failed |= bool(wrong) and parts[p.name] is None
+    if failed:
+        return None, problems
     made = object.__new__(table)
-    object.__setattr__(made, "_place", Place(path, given))
+    object.__setattr__(made, "_place", Place(path, frozenset(given)))
     try:
-        cast(Any, table).__init__(made, **values)
+        cast(Any, table).__init__(made, **given, **parts, **others)
     except InputError as error:
-        return None, list(error.problems)
-    return made, []
+        problems += error.problems
+    return made, problems
+
+
+def resolve_paths(table: Table, data: Any, base: Path) -> None:
+    """Make files in a table of a study file, which are relative to it, relative to here.
+
+    Parameters
+    ----------
+    table : type of Parameters or Variants
+    data : object
+        Changed in place; what is no table is left to the check of its values.
+    base : Path
+        Folder of the study file.
+    """
+    for key, entry in entries(table).items() if isinstance(data, dict) else ():
+        name, file = data.get(key), entry.parameter.file
+        if file and isinstance(name, str) and (Path(name).suffix if file.or_name else name):
+            data[key] = str(base / name)
 
 
 def resolved(table: Table, made: Parameters) -> dict[str, Any]:

@@ -16,8 +16,7 @@ from contactstudy.profiles.named import wheel_curve
 from contactstudy.study.kinds.positions import run as positions_run
 from contactstudy.study.kinds.positions.check import check_positions
 from contactstudy.study.kinds.positions.run import run_positions
-from contactstudy.study.kinds.positions.table import Series, load_positions
-from contactstudy.units import UnitError
+from contactstudy.study.kinds.positions.table import Positions, load_positions
 
 HERTZ = """
 title = "A cylinder on the crown"
@@ -41,14 +40,16 @@ def study(tmp_path):
 
 
 def test_series():
-    read = Series("m", at_least=-0.1, at_most=0.1)
+    def read(lateral):
+        return Positions(lateral=lateral, roll=0).lateral
+
     assert read("0 mm to 10 mm by 0.5 mm") == tuple(round(0.5e-3 * k, 6) for k in range(21))
     assert read("10 mm to 0 mm by -5 mm") == (0.01, 0.005, 0.0)
     assert read(["1 mm", 0.002]) == (0.001, 0.002) and read("3 mm") == (0.003,)
     for wrong in ("0 mm to 1 mm by 0.3 mm", "0 mm to 1 mm by 0 mm", "0 to 1 by -1", []):
-        with pytest.raises(UnitError):
+        with pytest.raises(InputError):
             read(wrong)
-    with pytest.raises(UnitError, match=r"at least -0.1 and at most 0.1 m"):
+    with pytest.raises(InputError, match=r"at least -0.1 and at most 0.1 m"):
         read("0 m to 1 m by 0.5 m")
 
 

@@ -55,7 +55,6 @@ PENDING = [
     "report/parameters.py imports from study/kinds",
     "study/compute.py imports from study/kinds",
     "study/loading.py imports from study/kinds",
-    "study/overrides.py imports from study/kinds",
     "study/plan.py imports from study/kinds",
     "study/runner.py imports from figures",
     "study/runner.py imports from report",

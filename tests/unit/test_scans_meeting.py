@@ -16,7 +16,8 @@ from contactstudy.profiles.scanned_rail import fit_rail_head
 from contactstudy.profiles.scanned_wheel import fit_wheel_tread
 from contactstudy.scans import Scan, meeting, uncovered
 from contactstudy.scans.scan import developed
-from contactstudy.study.kinds.passage.scan import ScanTable
+from contactstudy.study.kinds.passage.scan import ScanFiles
+from contactstudy.validation import read
 from contactstudy.verification.cases.scanned_profiles import synthetic_scan
 
 RAIL, S1002 = rail_curve("60E1"), wheel_curve("S1002")
@@ -116,12 +117,12 @@ def test_table_of_the_study_file(tmp_path):
     for body, mesh in MESHES.items():
         mesh.export(tmp_path / f"{body}.ply")
     keys = {"rail": str(tmp_path / "rail.ply"), "wheel": str(tmp_path / "wheel.ply")}
-    missing = ScanTable.model_validate(keys).problems()
+    missing = read(ScanFiles, keys, "scan")[1]
     assert [p.split(":")[0] for p in missing] == ["scan.rail_unit", "scan.wheel_unit"]
-    alone = ScanTable.model_validate({"wheel_unit": "mm", "rail_middle": 1.0, "smoothing": 1e-3})
-    assert len(alone.problems()) == 3
-    table = ScanTable.model_validate(keys | {"rail_unit": "m", "wheel_unit": "m"})
-    assert table.problems() == [] and table.used
+    alone = {"wheel_unit": "mm", "rail_middle": 1.0, "smoothing": 1e-3}
+    assert len(read(ScanFiles, alone, "scan")[1]) == 3
+    table = ScanFiles(**keys, rail_unit="m", wheel_unit="m")
+    assert table.used
     rail, wheel = table.curves(RAIL, S1002)
     assert rail.residual == pytest.approx(2e-6, rel=0.2) and rail.upper and not wheel.upper
     assert set(table.fitted()) >= {"rail_residual_rms", "wheel_residual_largest"}
@@ -130,8 +131,8 @@ def test_table_of_the_study_file(tmp_path):
     assert found.smooth.travel == pytest.approx(exact.travel, abs=3e-6)
     with pytest.raises(InputError, match=r"wheel_radius = 0.43 m: the scan wheel.ply has 0.46"):
         table.touch(RAIL, S1002, 0.43, POSE, 0.01, 0.006)
-    wrong = ScanTable.model_validate(keys | {"rail_unit": "mm", "wheel_unit": "in"})
+    wrong = ScanFiles(**keys, rail_unit="mm", wheel_unit="in")
     with pytest.raises(InputError) as caught:
         wrong.surfaces()
     assert [p.split(":")[0] for p in caught.value.problems] == ["scan.rail", "scan.wheel"]
-    assert ScanTable.model_validate({}).curves(RAIL, S1002) == (RAIL, S1002)
+    assert ScanFiles().curves(RAIL, S1002) == (RAIL, S1002)

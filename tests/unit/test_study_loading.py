@@ -6,12 +6,12 @@ from pathlib import Path
 import pytest
 
 from contactstudy.exceptions import InputError
+from contactstudy.study.kinds.passage.reading import parse_study
 from contactstudy.study.kinds.positions.table import load_positions
 from contactstudy.study.loading import (
     find_study,
     load_companions,
     load_study,
-    parse_study,
     shipped_studies,
 )
 
@@ -29,8 +29,8 @@ def point(**keys: object) -> dict:
 def test_an_empty_file_is_the_papers_case():
     study = parse_study("empty", {})
     track, vehicle, journey = study.track, study.vehicle, study.journey
-    assert (track.length, track.spacing, track.pad_stiffness) == (36.0, 0.6, 65e6)
-    assert (track.sleeper_mass, track.ballast_stiffness) == (125.5, 137.75e6)
+    assert (track.length, track.support.spacing, track.support.pad_stiffness) == (36.0, 0.6, 65e6)
+    assert (track.support.sleeper_mass, track.support.layer.stiffness) == (125.5, 137.75e6)
     assert (vehicle.wheel_mass, vehicle.bogie_mass, vehicle.car_mass) == (890, 760, 5219)
     assert (vehicle.primary_stiffness, vehicle.secondary_damping) == (0.59e6, 22.55e3)
     assert (journey.start, journey.end, journey.speed) == (6.0, 30.0, 300 / 3.6)
@@ -130,7 +130,7 @@ def test_a_path_in_a_file_is_relative_to_the_file(tmp_path):
         ({"runs": {"a": {}}}, ['runs.a.solver: is missing; must be "point" or "surface"']),
         ({"runs": {"a": {"solver": "poit"}}}, ["did you mean 'point'"]),
         ({"runs": {"a b": {"solver": "point"}}}, ["letters, digits and _"]),
-        ({"runs": {"s": {"solver": "surface", "rail": "euler"}}}, ["runs.s.rail: unknown key"]),
+        ({"runs": {"s": {"solver": "surface", "rail": "euler"}}}, ["runs.s.rail: applies only"]),
         ({"runs": 3}, ["one table a run"]),
         (point() | {"compare": {"reference": "surface"}}, ["must be a run of the study: point"]),
         (point() | {"compare": {"with": "point"}}, ["compare.with: unknown key"]),
@@ -204,7 +204,7 @@ def test_a_companion_shares_track_and_journey_of_its_study(tmp_path):
     main = load_study("point_vs_surface", ["track.pad_stiffness=200 MN/m", "journey.to=24 m"])
     (companion,) = load_companions(main)
     assert companion.name == "smooth_rail" and companion.irregularity.spectrum == "smooth"
-    assert companion.track.pad_stiffness == 200e6 and companion.journey.end == 24.0
+    assert companion.track.support.pad_stiffness == 200e6 and companion.journey.end == 24.0
     assert load_study("smooth_rail").journey.end == 30.0
     own = tmp_path / "own.toml"
     own.write_text('[journey]\nto = "40 m"\n')
@@ -312,7 +312,7 @@ def test_cells_fit_the_supports_unless_their_length_is_given(track, length):
 
 def test_a_name_that_looks_like_a_number_stays_a_name():
     study = load_study("s1002_inclined", ["wheelset.rail_profile=60E1", "track.rail=60E1"])
-    assert (study.wheelset.rail_profile, study.track.rail) == ("60E1", "60E1")
+    assert (study.wheelset.rail_profile, study.track.rail.profile_name) == ("60E1", "60E1")
     positions = load_positions("manchester", ["positions.rail_profile=60E1"])
     assert positions is not None and positions.table.rail_profile == "60E1"
 

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from contactstudy.irregularity import RepeatWarning, SmoothRail, paper_spectrum
+from contactstudy.study.kinds.passage.reading import parse_study
 from contactstudy.study.kinds.passage.roughness import describe, irregularity_of
-from contactstudy.study.loading import parse_study
 
 LONG = {"track": {"length": "480 m"}, "journey": {"to": "400 m"}}
 

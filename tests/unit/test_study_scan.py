@@ -11,7 +11,8 @@ from contactstudy.exceptions import InputError
 from contactstudy.profiles.named import rail_curve, wheel_curve
 from contactstudy.study.kinds.passage import build
 from contactstudy.study.kinds.passage.placing import geometry
-from contactstudy.study.loading import load_study, parse_study
+from contactstudy.study.kinds.passage.reading import parse_study
+from contactstudy.study.loading import load_study
 from contactstudy.study.plan import plan_study
 from contactstudy.verification.cases.scanned_profiles import synthetic_scan
 

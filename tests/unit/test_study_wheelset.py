@@ -165,6 +165,6 @@ def test_steep_contact_that_pushes_the_rail_far_aside_is_refused(shift):
 def test_contact_ahead_of_the_fine_zone_names_the_key():
     """With yaw the gauge corner touches ahead of the wheel's lowest point."""
     study = loaded("wheelset.lateral_shift=5.5 mm", "wheelset.yaw=25 mrad")
-    short = replace(study, solid=study.solid.model_copy(update={"contact_half_length": 1e-3}))
+    short = replace(study, solid=replace(study.solid, mesh_size=1e-3, contact_half_length=1e-3))
     with pytest.raises(InputError, match=r"solid.contact_half_length = 1 mm must be larger"):
         contact_zone(short)

@@ -102,8 +102,8 @@ class Bed(Parameters):
     ],
 )  # fmt: skip
 def test_a_caller_from_python_gets_the_message_of_a_file(given, problem):
-    made, problems = read(Bed, given, "bed")
-    assert made is None and len(problems) == 1
+    problems = read(Bed, given, "bed")[1]
+    assert len(problems) == 1
     assert problems[0].startswith("bed." + problem.format("bed.")), problems
     names = {"from": "start"}
     with pytest.raises(InputError) as caught:

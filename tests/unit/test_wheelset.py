@@ -15,7 +15,7 @@ from contactstudy.verification.cases import manchester as m
 
 @pytest.fixture(scope="module")
 def wheelset():
-    return Wheelset(wheel_curve("S1002"), rail_curve(m.RAIL), m.RADIUS)
+    return Wheelset(wheel=wheel_curve("S1002"), rail=rail_curve(m.RAIL), radius=m.RADIUS)
 
 
 def gauge_point():
@@ -70,8 +70,12 @@ def test_rest_roll_is_contacts_less_the_approaches(wheelset):
 
 def test_impossible_wheelsets():
     with pytest.raises(InputError) as error:
-        Wheelset(wheel_curve("S1002"), rail_curve(), -0.4, gauge=0.0)
+        Wheelset(wheel=wheel_curve("S1002"), rail=rail_curve(), radius=-0.4, gauge=0.0)
     assert len(error.value.problems) == 2
     with pytest.raises(InputError, match="does not reach so far"):
-        Wheelset(wheel_curve("S1002"), rail_curve(), 0.43, gauge_depth=0.5).gauge_point()
-    assert math.isclose(Wheelset(wheel_curve("cone"), rail_curve(), 0.43).half, 0.75)
+        standard("S1002", gauge_depth=0.5).gauge_point()
+    assert math.isclose(standard("cone").half, 0.75)
+
+
+def standard(profile, **dimensions):
+    return Wheelset(wheel=wheel_curve(profile), rail=rail_curve(), radius=0.43, **dimensions)

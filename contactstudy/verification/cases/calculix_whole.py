@@ -11,7 +11,6 @@ from contactstudy.solids.cache import cached
 from contactstudy.solids.wheel import WheelFlexibility
 from contactstudy.study.kinds.passage import build
 from contactstudy.study.kinds.passage.placing import geometry
-from contactstudy.study.kinds.passage.vehicles import vehicle
 from contactstudy.study.loading import load_study
 from contactstudy.track.model import Track
 from contactstudy.track.solid import solid_rail
@@ -127,7 +126,7 @@ def whole_press(*changes: str, start: float = START) -> WholePress:
     cell, placed = build.recipe(study), geometry(study)
     # wide steps far from the contact: quicker, and the same for both programs
     recipe = replace(build.wheel_recipe(study), far_step=np.pi / 6)
-    penalty, load = study.solid.penalty, float(vehicle(study).static_loads[0])
+    penalty, load = study.solid.penalty, study.vehicle.static_load
     mesh = press_mesh(cell, recipe, LENGTH, placed)
     material = cell.youngs_modulus, cell.poisson_ratio
     run = run_calculix(calculix_input(mesh, load, penalty, *material, start), penalty, False)

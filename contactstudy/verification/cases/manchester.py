@@ -14,7 +14,7 @@ from functools import lru_cache
 
 from contactstudy.geometry.placement import Geometry
 from contactstudy.geometry.pose import Pose
-from contactstudy.geometry.wheelset import Side, Wheelset
+from contactstudy.geometry.wheelset import Side, Wheelset, WheelsetDimensions
 from contactstudy.halfspace.patch import Patch
 from contactstudy.halfspace.patches import press_wheel
 from contactstudy.profiles.named import rail_curve, wheel_curve
@@ -103,10 +103,8 @@ class ManchesterRow:
 @lru_cache(maxsize=1)
 def benchmark_wheelset() -> Wheelset:
     """The benchmark's wheelset on its track."""
-    return Wheelset(
-        wheel_curve("S1002"), rail_curve(RAIL), RADIUS, INCLINATION, GAUGE, GAUGE_DEPTH,
-        FLANGE_BACKS, TAPE_LINE,
-    )  # fmt: skip
+    dimensions = WheelsetDimensions(INCLINATION, GAUGE, GAUGE_DEPTH, FLANGE_BACKS, TAPE_LINE)
+    return Wheelset.of(dimensions, wheel_curve("S1002"), rail_curve(RAIL), RADIUS)
 
 
 def benchmark_pose(case: int, wheel: Side) -> Pose:

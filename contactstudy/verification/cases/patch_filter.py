@@ -13,6 +13,7 @@ from contactstudy.solvers.at_rest import bodies_at_rest
 from contactstudy.study.kinds.passage import build
 from contactstudy.study.kinds.passage.runs import SurfaceRun
 from contactstudy.study.kinds.passage.schema import Study
+from contactstudy.study.kinds.passage.solid import Solid
 from contactstudy.verification.cases.wave_filter import (
     ellipse_filter,
     load_weights,
@@ -65,9 +66,8 @@ def half_spaces() -> tuple[Array, Array, Array]:
 
 def real_bodies(mesh_size: float = 0.002) -> tuple[Array, Array]:
     """Weights (n,) and positions (n,) in m of the contact points of the default rail and wheel."""
-    study = Study(name="filter", title="Filter", runs={"surface": SurfaceRun()})
-    solid = study.solid.model_copy(update={"mesh_size": mesh_size})
-    study = Study(name="filter", title="Filter", solid=solid, runs=study.runs)
+    solid = Solid(mesh_size=mesh_size)
+    study = Study(name="filter", title="Filter", solid=solid, runs={"surface": SurfaceRun()})
     contact = build.surface_contact(study)
     at = bodies_at_rest(build.solid_track(study, build.track(study)), contact)
     M = at.flexibility + np.diag(contact.enforcement.compliance(at.points.area))

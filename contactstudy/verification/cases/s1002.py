@@ -101,5 +101,5 @@ def _check(
 
 
 def _half_space(study: Study, placed: Geometry, load: float) -> WheelPress:
-    modulus = contact_modulus(study.track.youngs_modulus, study.track.poisson_ratio)
+    modulus = contact_modulus(study.track.rail.youngs_modulus, study.track.rail.poisson_ratio)
     return press_wheel(placed, load, modulus)

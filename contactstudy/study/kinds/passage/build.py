@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -10,7 +11,6 @@ import numpy as np
 from contactstudy.contact.laws import ContactLaw, HertzSpring, LinearSpring, RigidContact
 from contactstudy.contact.press import tangent_stiffness
 from contactstudy.contact.surface_contact import SurfaceContact
-from contactstudy.dynamics import integrators
 from contactstudy.halfspace.hertz import HertzContact, contact_modulus, hertz_contact
 from contactstudy.profiles.wheel_file import wheel_dimensions
 from contactstudy.solids.bodies import modes_body, rail_body, wheel_body
@@ -22,31 +22,21 @@ from contactstudy.solids.wheel_recipe import FAR_STEP, FAR_STEP_OF_MODES
 from contactstudy.solvers.at_rest import geometry_press
 from contactstudy.solvers.journey import Journey
 from contactstudy.solvers.surface import PRESS_LOADS
-from contactstudy.study.kinds.passage.placing import contact_zone, geometry
-from contactstudy.study.kinds.passage.runs import PointRun, RunTable
+from contactstudy.study.kinds.passage.placing import contact_zone, geometry, meshed_rail
+from contactstudy.study.kinds.passage.runs import PointRun
 from contactstudy.study.kinds.passage.schema import Study
-from contactstudy.study.kinds.passage.vehicles import vehicle
 from contactstudy.track.beam import BeamTrack
 from contactstudy.track.discrete import DiscreteTrack
-from contactstudy.track.model import (
-    Ballast,
-    DiscreteSupports,
-    GivenRail,
-    Rail,
-    Slab,
-    Support,
-    Track,
-    WinklerFoundation,
-)
+from contactstudy.track.model import GivenRail, Track
 from contactstudy.track.solid import SolidTrack, solid_rail
 
 
 def recipe(study: Study) -> CellRecipe:
     """Recipe of the solid rail's cell; beams take their section from the same mesh."""
-    track, solid = study.track, study.solid
+    rail, solid = study.track.rail, study.solid
     low, high = contact_zone(study).rail
     return CellRecipe(
-        profile=track.rail,
+        profile=meshed_rail(study),
         size=solid.mesh_size,
         length=solid.cell_length,
         coarse=solid.coarse_mesh_size,
@@ -54,87 +44,37 @@ def recipe(study: Study) -> CellRecipe:
         interface_modes=solid.interface_modes,
         internal_modes=solid.internal_modes,
         contact_centre=0.5 * (low + high),
-        symmetric=solid.section == "half",
-        youngs_modulus=track.youngs_modulus,
-        poisson_ratio=track.poisson_ratio,
-        density=track.density,
+        symmetric=solid.half,
+        youngs_modulus=rail.youngs_modulus,
+        poisson_ratio=rail.poisson_ratio,
+        density=rail.density,
     )
 
 
 def wheel_recipe(study: Study) -> WheelRecipe:
     """Recipe of the meshed wheel: same steel as the rail."""
-    track, solid = study.track, study.solid
-    half = solid.section == "half"
+    rail, solid = study.track.rail, study.solid
     return WheelRecipe(
-        profile="cylinder" if half else study.wheelset.wheel_profile,
-        symmetric=half,
+        profile="cylinder" if solid.half else study.wheelset.wheel_profile,
+        symmetric=solid.half,
         contact_centre=contact_zone(study).wheel,
-        rail_profile=track.rail,
+        rail_profile=meshed_rail(study),
         dimensions=wheel_dimensions(solid.wheel_section).with_radius(study.vehicle.wheel_radius),
         size=solid.mesh_size,
         contact_half_length=solid.contact_half_length,
         contact_half_width=solid.contact_half_width,
-        youngs_modulus=track.youngs_modulus,
-        poisson_ratio=track.poisson_ratio,
-        density=track.density,
+        youngs_modulus=rail.youngs_modulus,
+        poisson_ratio=rail.poisson_ratio,
+        density=rail.density,
         far_step=FAR_STEP_OF_MODES if study.has_wheel_modes else FAR_STEP,
     )
 
 
-def rail(study: Study) -> Rail:
-    """The rail: integrals of the section mesh that the solid uses, or the values given."""
-    table = study.track
-    if table.rail != "given":
-        return solid_rail(recipe(study))
-    return GivenRail(
-        EI=table.bending_stiffness,
-        mass=table.mass_per_length,
-        area=table.area,
-        shear_coefficient=table.shear_coefficient,
-        youngs_modulus=table.youngs_modulus,
-        poisson_ratio=table.poisson_ratio,
-    )
-
-
-def support(study: Study) -> Support:
-    """What carries the rail."""
-    table = study.track
-    if table.support == "none":
-        return None
-    if table.support == "winkler":
-        return WinklerFoundation(table.foundation_stiffness, table.foundation_damping)
-    layer: Ballast | Slab
-    if table.layer == "slab":
-        layer = Slab(
-            bending_stiffness=table.slab_bending_stiffness,
-            mass_per_length=table.slab_mass_per_length,
-            stiffness=table.slab_bed_stiffness,
-            damping=table.slab_bed_damping,
-        )
-    else:
-        layer = Ballast(
-            stiffness=table.ballast_stiffness,
-            damping=table.ballast_damping,
-            lateral_stiffness=table.lateral_ballast_stiffness,
-            lateral_damping=table.lateral_ballast_damping,
-        )
-    return DiscreteSupports(
-        spacing=table.spacing,
-        pad_stiffness=table.pad_stiffness,
-        pad_damping=table.pad_damping,
-        pad_length=table.pad_length,
-        sleeper_mass=table.sleeper_mass,
-        layer=layer,
-        lateral_pad_stiffness=table.lateral_pad_stiffness,
-        lateral_pad_damping=table.lateral_pad_damping,
-    )
-
-
 def track(study: Study) -> Track:
-    """The track of all runs of a study."""
-    return Track(
-        rail=rail(study), support=support(study), length=study.track.length, ends=study.track.ends
-    )
+    """The track of all runs: its rail has the integrals of the mesh that the solid uses."""
+    if study.track.rail.profile_name is None:
+        return study.track
+    return replace(study.track, rail=solid_rail(recipe(study)))
 
 
 def solid_track(study: Study, described: Track) -> SolidTrack:
@@ -201,15 +141,7 @@ def bodies(study: Study, run: str) -> tuple[Body[Any], ...]:
 
 def journey(study: Study, run: str) -> Journey:
     """The journey with the time step of a run."""
-    table = study.journey
-    return Journey(
-        start=table.start,
-        end=table.end,
-        speed=table.speed,
-        time_step=study.time_step(run),
-        fade_in=table.fade_in,
-        stations=table.stations,
-    )
+    return replace(study.journey, time_step=study.time_step(run))
 
 
 def frames_at(study: Study) -> tuple[float, ...]:
@@ -219,26 +151,18 @@ def frames_at(study: Study) -> tuple[float, ...]:
     return tuple(np.linspace(low, high, table.animation_frames).tolist())
 
 
-def integrator(run: RunTable) -> integrators.Integrator:
-    """The time stepper of a run."""
-    if run.stepper == "generalised_alpha":
-        return integrators.generalised_alpha(run.rho_inf)
-    return integrators.average_acceleration()
-
-
 def hertz(study: Study) -> HertzContact:
     """Hertz's contact of the study's wheel and rail under the static wheel load."""
-    table = study.track
-    modulus = contact_modulus(table.youngs_modulus, table.poisson_ratio)
-    load = float(vehicle(study).static_loads[0])
-    if study.solid.section == "half" and table.rail == "given":
-        return hertz_contact(load, modulus, study.vehicle.wheel_radius, table.crown_radius)
+    rail, load = study.track.rail, study.vehicle.static_load
+    modulus = contact_modulus(rail.youngs_modulus, rail.poisson_ratio)
+    if study.solid.half and isinstance(rail, GivenRail):
+        return hertz_contact(load, modulus, study.vehicle.wheel_radius, rail.crown_radius)
     return hertz_contact(load, modulus, *geometry(study).relative_radii())
 
 
 def pressed_stiffness(study: Study, described: Track) -> float:
     """Tangent stiffness in N/m of the study's meshed wheel on its meshed rail, at static load."""
-    load = float(vehicle(study).static_loads[0])
+    load = study.vehicle.static_load
     loads = np.asarray(PRESS_LOADS) * load
     curve = geometry_press(solid_track(study, described), surface_contact(study), loads)
     return tangent_stiffness(curve, load)

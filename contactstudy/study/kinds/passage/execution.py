@@ -12,7 +12,6 @@ from contactstudy.study.kinds.passage import build
 from contactstudy.study.kinds.passage.roughness import irregularity_of
 from contactstudy.study.kinds.passage.runs import PointRun, SurfaceRun
 from contactstudy.study.kinds.passage.schema import Study
-from contactstudy.study.kinds.passage.vehicles import vehicle
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -41,12 +40,12 @@ def _point(study: Study, run: str, table: PointRun, progress: Progress | None) -
     track = build.track(study)
     return point_contact(
         build.point_track(study, table, track),
-        vehicle(study),
+        study.vehicle.vehicle(),
         irregularity_of(study, table.irregularity == "smooth", table.direction),
         build.journey(study, run),
         law=build.contact_law(study, run, track),
         observers=_reports(progress),
-        integrator=build.integrator(table),
+        integrator=table.method(),
     )
 
 
@@ -58,7 +57,7 @@ def _surface(study: Study, run: str, table: SurfaceRun, progress: Progress | Non
     return surface_contact(
         build.solid_track(study, build.track(study)),
         build.surface_contact(study, run),
-        vehicle(study),
+        study.vehicle.vehicle(),
         irregularity_of(study, table.irregularity == "smooth"),
         build.journey(study, run),
         observers=(
@@ -66,7 +65,7 @@ def _surface(study: Study, run: str, table: SurfaceRun, progress: Progress | Non
             Instants(study.solid.pressure_at),
             Frames(build.frames_at(study)),
         ),
-        integrator=build.integrator(table),
+        integrator=table.method(),
     )
 
 

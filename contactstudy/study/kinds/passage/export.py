@@ -17,13 +17,11 @@ from contactstudy.geometry.pose import Pose
 from contactstudy.solids.recipe import CellRecipe
 from contactstudy.solids.wheel_recipe import WheelRecipe
 from contactstudy.study.kinds.passage import build
-from contactstudy.study.kinds.passage.placing import geometry
+from contactstudy.study.kinds.passage.placing import geometry, meshed_rail
 from contactstudy.study.kinds.passage.runs import SurfaceRun
 from contactstudy.study.kinds.passage.schema import Study
-from contactstudy.study.kinds.passage.vehicles import vehicle
-from contactstudy.study.messages import complaint, did_you_mean
 from contactstudy.units import UnitError, to_si
-from contactstudy.validation import raise_if
+from contactstudy.validation import complaint, did_you_mean, raise_if
 
 CELLS = 4
 """Rail cells that are exported by default: the fewest that a condensed track has."""
@@ -90,13 +88,13 @@ def export_press(
         return number
 
     name = _run(study, run, problems)
-    if study.track.rail == "given":
+    if study.track.rail.profile_name is None:
         problems.append('track.rail = "given": a rail of given values has no section to mesh')
-    elif study.solid.section == "whole":
+    elif not study.solid.half:
         problems += _other_surfaces(study)
     if name and study.wheel(name) == "rigid":
         problems.append(f'wheel = "rigid" in the run {name}: only an elastic wheel can be exported')
-    newtons = given("--load", load, "N", float(vehicle(study).static_loads[0]))
+    newtons = given("--load", load, "N", study.vehicle.static_load)
     length = given("--rail-length", rail_length, "m", CELLS * study.solid.cell_length)
     if out.is_dir():
         problems.append(f"--out {out}: is a folder; give the name of a file")
@@ -150,7 +148,7 @@ def _axes(pose: Pose, symmetric: bool) -> tuple[str, ...]:
 
 def _other_surfaces(study: Study) -> list[str]:
     """Surfaces in the gap that are not those of the meshes, which alone are written."""
-    problems, meshed = [], study.track.rail
+    problems, meshed = [], meshed_rail(study)
     if study.wheelset.rail_profile not in ("", meshed):
         allowed = f"the faces of the mesh are those of {meshed}; only it can be exported"
         problems.append(complaint("wheelset.rail_profile", study.wheelset.rail_profile, allowed))

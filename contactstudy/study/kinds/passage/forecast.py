@@ -17,7 +17,6 @@ from contactstudy.study.kinds.passage.placing import scan_meeting
 from contactstudy.study.kinds.passage.roughness import describe
 from contactstudy.study.kinds.passage.runs import PointRun
 from contactstudy.study.kinds.passage.schema import Study
-from contactstudy.study.kinds.passage.vehicles import vehicle
 from contactstudy.study.loading import load_companions
 from contactstudy.track.beam import BeamTrack, RailTheory
 from contactstudy.track.model import Direction, DiscreteSupports, Slab, Track
@@ -43,7 +42,7 @@ def forecast(study: Study, run: str, track: Track) -> Forecast:
     """Forecast of one run of a study on its `track`."""
     table = study.runs[run]
     steps = build.journey(study, run).n_steps
-    wheels = vehicle(study).n_dofs
+    wheels = study.vehicle.vehicle().n_dofs
     if isinstance(table, PointRun) and not table.needs_solid:
         theory = "timoshenko" if table.rail == "timoshenko" else "euler"
         beam = theory, table.elements_per_bay, table.local_compliance, table.direction
@@ -70,7 +69,7 @@ def solid_dofs(study: Study, track: Track) -> int:
     solid = study.solid
     cells = round(track.length / solid.cell_length)
     # ends that let the rail slide along X are held there by one dof
-    whole = solid.section == "whole"
+    whole = not solid.half
     pinned = 7 if whole else 3
     held = {"clamped": 2 * solid.interface_modes, "pinned": pinned, "free": 1}[track.ends]
     below = 0
@@ -131,7 +130,7 @@ def print_check(study: Study, console: Console) -> None:
 
 def _contact(study: Study) -> str:
     """Static load and Hertz's contact, which conformal profiles do not have."""
-    load = float(vehicle(study).static_loads[0])
+    load = study.vehicle.static_load
     text = f"static wheel load {load / 1e3:.2f} kN; "
     try:
         hertz = build.hertz(study)
@@ -149,7 +148,7 @@ def _contact(study: Study) -> str:
 def _condensation(study: Study, companions: list[Study]) -> float:
     """Seconds of condensing what the cache does not have; rail and wheel at the same time."""
     needed = [
-        CONDENSATION[b.name] * (WHOLE if b.name == "rail" and one.solid.section == "whole" else 1)
+        CONDENSATION[b.name] * (WHOLE if b.name == "rail" and not one.solid.half else 1)
         for one in (study, *companions)
         for run in one.runs
         for b in build.bodies(one, run)

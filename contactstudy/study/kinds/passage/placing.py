@@ -22,7 +22,6 @@ from contactstudy.solids.rim import tread_reach
 from contactstudy.solids.section_outline import fine_reach
 from contactstudy.solids.wheel_section import fine_arcs
 from contactstudy.study.kinds.passage.schema import Study
-from contactstudy.study.kinds.passage.vehicles import vehicle
 from contactstudy.study.kinds.passage.wheelset import complaint_of_position
 
 RAIL_MARGIN = 0.002
@@ -52,10 +51,15 @@ class ContactZone:
     rail: tuple[float, float]
 
 
+def meshed_rail(study: Study) -> str:
+    """Name of the profile that is meshed."""
+    return study.track.rail.profile_name or "given"
+
+
 def geometry(study: Study) -> Geometry:
     """Profiles and position of the wheel; half sections are a centred cylinder's."""
-    if study.solid.section == "half":
-        rail, wheel = rail_curve(study.track.rail), wheel_curve("cylinder")
+    if study.solid.half:
+        rail, wheel = rail_curve(meshed_rail(study)), wheel_curve("cylinder")
         return _geometry(rail, wheel, study.vehicle.wheel_radius, Pose())
     drawn, pose = _position(study)
     return _geometry(*study.scan.curves(*drawn), study.vehicle.wheel_radius, pose)
@@ -66,7 +70,7 @@ def _position(study: Study) -> tuple[tuple[ProfileCurve, ProfileCurve], Pose]:
 
     Scans seldom show gauge face and flange back, so they do not change the position.
     """
-    drawn = study.wheelset.curves(study.track.rail)
+    drawn = study.wheelset.curves(meshed_rail(study))
     return drawn, study.wheelset.pose(*drawn, study.vehicle.wheel_radius)
 
 
@@ -84,7 +88,7 @@ def scan_meeting(study: Study) -> Meeting | None:
     InputError
         Listing everything that is wrong with the scans.
     """
-    if study.solid.section == "half" or not study.scan.used:
+    if study.solid.half or not study.scan.used:
         return None
     drawn, pose = _position(study)
     zone = study.solid.contact_half_length, study.solid.contact_half_width
@@ -108,11 +112,11 @@ def contact_zone(study: Study) -> ContactZone:
         rail is pushed far aside.
     """
     solid = study.solid
-    if solid.section == "half":
+    if solid.half:
         half = solid.contact_half_width + RAIL_MARGIN
         return ContactZone(0.0, (-half, half))
     placed = geometry(study)
-    found = _settled(placed, float(vehicle(study).static_loads[0]))
+    found = _settled(placed, study.vehicle.static_load)
     lines = fine_arcs(0.0, solid.contact_half_width, solid.mesh_size)
     dimensions = wheel_dimensions(solid.wheel_section).with_radius(study.vehicle.wheel_radius)
     curve = wheel_curve(study.wheelset.wheel_profile)
@@ -121,7 +125,7 @@ def contact_zone(study: Study) -> ContactZone:
         _rounded(0.5 * (found.s.min() + found.s.max())), _rounded(first - lines[0], np.ceil)
     )
     middle = min(middle, _rounded(last - lines[-1], np.floor))
-    reach = fine_reach(rail_profile(study.track.rail), solid.mesh_size)
+    reach = fine_reach(rail_profile(meshed_rail(study)), solid.mesh_size)
     while True:
         feet = placed.feet(middle + lines)
         low = _rounded(feet.min() - RAIL_MARGIN, np.floor)

@@ -12,8 +12,8 @@ import numpy as np
 from contactstudy import irregularity as irr
 from contactstudy.files import file_digest
 from contactstudy.study.kinds.passage.schema import Study
-from contactstudy.study.kinds.passage.tables import IrregularityTable
 from contactstudy.study.results import IrregularityInfo, Level, Spectrum
+from contactstudy.track.model import Direction
 
 PROFILE_STEP = 0.01  # m, of the profile drawn in Fig. 1b
 CURVE_POINTS = 400  # of a spectrum's formula
@@ -52,27 +52,17 @@ class Described:
         """What Fig. 1 shows."""
         table = self.study.irregularity
         smooth = table.spectrum == "smooth"
-        generated = not smooth and table.spectrum != "measured"
         measured, level = _measured_info(table, *self.measured) if self.measured else (None, None)
         return IrregularityInfo(
             spectrum=None if smooth else _curve(table),
-            estimate=_estimate(table, self.profile) if generated else None,
+            estimate=_estimate(table, self.profile) if table.generated else None,
             profile=None if smooth else _sampled(self.study, self.profile),
             measured=measured,
             measured_profile=level,
         )
 
 
-def spectrum_of(table: IrregularityTable) -> irr.Spectrum:
-    """The formula a study generates from; Table 1's where it generates nothing."""
-    if table.spectrum == "paper":
-        return irr.paper_spectrum(table.roughness, table.omega_1, table.omega_2)
-    if table.spectrum in ("measured", "smooth"):
-        return irr.paper_spectrum()
-    return irr.spectrum(table.spectrum)
-
-
-def irregularity_of(study: Study, smooth: bool = False, direction: str = "Z") -> irr.Profile:
+def irregularity_of(study: Study, smooth: bool = False, direction: Direction = "Z") -> irr.Profile:
     """The profile of a study's runs.
 
     Parameters
@@ -88,38 +78,10 @@ def irregularity_of(study: Study, smooth: bool = False, direction: str = "Z") ->
     InputError
         When a measured file cannot be used or does not cover the journey.
     """
-    table = study.irregularity
-    if smooth or table.spectrum == "smooth":
+    if smooth:
         return irr.SmoothRail()
-    if table.spectrum == "measured":
-        required = (study.journey.start, study.journey.end) if study.runs else None
-        return _measured(table, table.wavelengths, required)
-    return irr.sample_profile(
-        spectrum_of(table),
-        table.seed,
-        table.terms,
-        table.band,
-        table.jitter,
-        "vertical" if direction == "Z" else "transverse",
-    )
-
-
-def _measured(
-    table: IrregularityTable,
-    wavelengths: tuple[float, float] | None,
-    required: tuple[float, float] | None = None,
-) -> irr.MeasuredProfile:
-    overlay = table.spectrum != "measured"
-    return irr.measured_profile(
-        table.measured_file,
-        table.level_column,
-        table.level_unit,
-        x_column=table.x_column,
-        origin=0.0 if overlay else table.origin,
-        wavelengths=wavelengths,
-        interpolation=table.interpolation,
-        required=required,
-    )
+    required = (study.journey.start, study.journey.end) if study.runs else None
+    return study.irregularity.profile(direction, required)
 
 
 def describe(study: Study) -> Described:
@@ -136,22 +98,22 @@ def describe(study: Study) -> Described:
         profile = irregularity_of(study)
         irr.check_repeat(profile, study.journey.end - study.journey.start)
     if table.measured_file:
-        measured = _measured(table, None), _measured(table, table.wavelengths)
+        measured = table.measured(None), table.measured(table.wavelengths)
     described = Described(study, profile, measured, tuple(str(w.message) for w in caught))
     if measured:
         _ = described.info  # a level too short for an estimate is refused here
     return described
 
 
-def _curve(table: IrregularityTable) -> Spectrum:
+def _curve(table: irr.Irregularity) -> Spectrum:
     omega = np.geomspace(*table.band, CURVE_POINTS)
-    formula = spectrum_of(table)
+    formula = table.formula()
     table_1 = formula.parameters == irr.paper_spectrum().parameters
     label = "eq. (3), Table 1" if table_1 else formula.name
     return Spectrum(label, omega, formula(omega), table.band)
 
 
-def _estimate(table: IrregularityTable, profile: irr.Profile) -> Spectrum:
+def _estimate(table: irr.Irregularity, profile: irr.Profile) -> Spectrum:
     """Welch's estimate over two repeat lengths of the profile, in the band of its terms.
 
     The 36 m of the track are half a wavelength of the longest term; a profile is a function of
@@ -179,7 +141,7 @@ def _sampled(study: Study, profile: irr.Profile) -> Level:
 
 
 def _measured_info(
-    table: IrregularityTable, raw: irr.MeasuredProfile, passed: irr.MeasuredProfile
+    table: irr.Irregularity, raw: irr.MeasuredProfile, passed: irr.MeasuredProfile
 ) -> tuple[Spectrum, Level]:
     """Spectrum of the level as measured, with its valid band, and the band-passed level."""
     step = float(np.median(np.diff(raw.positions)))

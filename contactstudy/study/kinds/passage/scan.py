@@ -2,24 +2,33 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
 from contactstudy.exceptions import InputError
 from contactstudy.geometry.pose import Pose
 from contactstudy.profiles.curve import ProfileCurve
 from contactstudy.scans import Meeting, Scan, meeting, read_scan
-from contactstudy.study import quantities as q
-from contactstudy.study.messages import complaint
-from contactstudy.study.section import Section
+from contactstudy.validation import (
+    Above,
+    AtLeast,
+    AtMost,
+    File,
+    Naming,
+    Parameters,
+    Unit,
+    complaint,
+)
 
 PATHS = ("rail", "wheel")
 """Keys that hold a file's name."""
-Unit = Literal["", "mm", "m", "cm", "um", "in"]
+LengthUnit = Literal["", "mm", "m", "cm", "um", "in"]
 
 
-class ScanTable(Section):
+@dataclass(frozen=True)
+class ScanFiles(Parameters):
     """``[scan]``: STL, PLY or OBJ files, X along the rail, Y to the field side, Z up.
 
     The gap is taken from the smooth surfaces that are fitted to the scans; the bodies that are
@@ -28,38 +37,42 @@ class ScanTable(Section):
     lowest point.
     """
 
-    rail: str = ""
-    rail_unit: Unit = ""
-    rail_middle: q.Position = 0.0
-    wheel: str = ""
-    wheel_unit: Unit = ""
-    wheel_tape: q.Position = 0.0
-    smoothing: q.Smoothing = 1e-3
-    residual_limit: q.Length = 1e-4
+    rail: Annotated[str, File(), "scanned rail head"] = ""
+    rail_unit: Annotated[LengthUnit, "length unit of that file"] = ""
+    rail_middle: Annotated[float, Unit("m"), "Y of the rail's middle plane in the scan"] = 0.0
+    wheel: Annotated[str, File(), "scanned tread"] = ""
+    wheel_unit: Annotated[LengthUnit, "length unit of that file"] = ""
+    wheel_tape: Annotated[float, Unit("m"), "Y of the tape circle in the scan"] = 0.0
+    smoothing: Annotated[
+        float, Unit("m"), AtLeast(1e-5), AtMost(0.01), "least distance of the fitted curve's knots"
+    ] = 1e-3
+    residual_limit: Annotated[
+        float, Unit("m"), Above(0), "largest root mean square of the residual"
+    ] = 1e-4
 
     @property
     def used(self) -> bool:
         """Whether there is a scan at all."""
         return bool(self.rail or self.wheel)
 
-    def problems(self) -> list[str]:
-        """Keys against each other: a file needs its unit, and the other keys a file."""
+    def problems(self, key: Naming) -> list[str]:
+        """A file without its unit, and other keys without a file."""
         found = []
         for body, origin in (("rail", "rail_middle"), ("wheel", "wheel_tape")):
             file, unit = getattr(self, body), getattr(self, f"{body}_unit")
             if file and not unit:
                 allowed = 'is missing; state the length unit of the file, e.g. "mm"'
-                found.append(f"scan.{body}_unit: {allowed}")
+                found.append(f"{key(f'{body}_unit')}: {allowed}")
             found += [
-                complaint(f"scan.{key}", getattr(self, key), f"applies only with scan.{body}")
-                for key in (f"{body}_unit", origin)
-                if not file and key in self.model_fields_set and getattr(self, key)
+                complaint(key(name), getattr(self, name), f"applies only with {key(body)}")
+                for name in (f"{body}_unit", origin)
+                if not file and self.given(name) and getattr(self, name)
             ]
         if not self.used:
             found += [
-                complaint(f"scan.{key}", getattr(self, key), "applies only with a scan")
-                for key in ("smoothing", "residual_limit")
-                if key in self.model_fields_set
+                complaint(key(name), getattr(self, name), "applies only with a scan")
+                for name in ("smoothing", "residual_limit")
+                if self.given(name)
             ]
         return found
 

@@ -2,31 +2,41 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass, field
 from typing import Any
 
-from contactstudy.study.kinds.passage.runs import PointRun, RunTable, SurfaceRun
-from contactstudy.study.kinds.passage.scan import ScanTable
-from contactstudy.study.kinds.passage.tables import (
-    IrregularityTable,
-    JourneyTable,
-    SolidTable,
-    TrackTable,
-    VehicleTable,
+from contactstudy.irregularity import Irregularity
+from contactstudy.solvers.journey import Journey
+from contactstudy.study.kinds.passage.checks import combined
+from contactstudy.study.kinds.passage.runs import SOLVERS, PointRun, SurfaceRun
+from contactstudy.study.kinds.passage.scan import ScanFiles
+from contactstudy.study.kinds.passage.solid import Solid
+from contactstudy.study.kinds.passage.wheelset import WheelsetPosition
+from contactstudy.track.model import Track
+from contactstudy.validation import (
+    Table,
+    Variants,
+    complaint,
+    did_you_mean,
+    raise_if,
+    resolved,
+    units,
 )
-from contactstudy.study.kinds.passage.wheelset import WheelsetTable
-from contactstudy.study.section import Section
+from contactstudy.vehicle import VEHICLES, BareWheel, WheelColumn
 
-SECTIONS: dict[str, type[Section]] = {
-    "irregularity": IrregularityTable,
-    "track": TrackTable,
-    "vehicle": VehicleTable,
-    "journey": JourneyTable,
-    "solid": SolidTable,
-    "wheelset": WheelsetTable,
-    "scan": ScanTable,
+SECTIONS: dict[str, Table] = {
+    "irregularity": Irregularity,
+    "track": Track,
+    "vehicle": VEHICLES,
+    "journey": Journey,
+    "solid": Solid,
+    "wheelset": WheelsetPosition,
+    "scan": ScanFiles,
 }
-SOLVERS: dict[str, type[RunTable]] = {"point": PointRun, "surface": SurfaceRun}
+"""Tables of a study file."""
+IRREGULARITY = "irregularity"
+"""Group of the results with what Fig. 1 shows; so no run may have this name."""
 
 
 @dataclass(frozen=True)
@@ -40,7 +50,7 @@ class Study:
     title, description : str
     companions : tuple of str
         Shipped studies (or paths) whose results stand in the same report.
-    irregularity, track, vehicle, journey, solid, wheelset, scan : Section
+    irregularity, track, vehicle, journey, solid, wheelset, scan : Parameters
         Tables of the file.
     runs : dict of str to PointRun or SurfaceRun
         In the order of the file; none for a study of the irregularity alone.
@@ -52,15 +62,22 @@ class Study:
     title: str
     description: str = ""
     companions: tuple[str, ...] = ()
-    irregularity: IrregularityTable = field(default_factory=IrregularityTable)
-    track: TrackTable = field(default_factory=TrackTable)
-    vehicle: VehicleTable = field(default_factory=VehicleTable)
-    journey: JourneyTable = field(default_factory=lambda: JourneyTable.model_validate({}))
-    solid: SolidTable = field(default_factory=SolidTable)
-    wheelset: WheelsetTable = field(default_factory=WheelsetTable)
-    scan: ScanTable = field(default_factory=ScanTable)
+    irregularity: Irregularity = field(default_factory=Irregularity)
+    track: Track = field(default_factory=Track)
+    vehicle: WheelColumn | BareWheel = field(default_factory=WheelColumn)
+    journey: Journey = field(default_factory=Journey)
+    solid: Solid = field(default_factory=Solid)
+    wheelset: WheelsetPosition = field(default_factory=WheelsetPosition)
+    scan: ScanFiles = field(default_factory=ScanFiles)
     runs: dict[str, PointRun | SurfaceRun] = field(default_factory=dict)
     reference: str | None = None
+
+    def __post_init__(self) -> None:
+        """Refuse what is impossible in combination, as in a file; cells fit the supports."""
+        raise_if(wrong_types({key: getattr(self, key) for key in SECTIONS}))
+        if not self.solid.given("cell_length"):
+            object.__setattr__(self, "solid", self.solid.fitting(self.track))
+        raise_if(combined(vars(self), self.runs) + wrong_reference(self.reference, self.runs))
 
     @property
     def needs_solid(self) -> bool:
@@ -71,7 +88,7 @@ class Study:
         """Whether a run takes its contact stiffness from a press of the meshed bodies."""
         table = self.runs[run]
         pressed = isinstance(table, PointRun) and table.law == "linear" and table.k_r == "tangent"
-        return pressed and self.track.rail != "given"
+        return pressed and self.track.rail.profile_name is not None
 
     def bodies(self, run: str) -> tuple[str, ...]:
         """Condensed bodies that a run needs: "rail", "wheel", "wheel modes"."""
@@ -99,10 +116,12 @@ class Study:
 
     def config(self) -> dict[str, Any]:
         """All values as nested plain data in SI, without keys that do not apply."""
-        tables: dict[str, Any] = {key: getattr(self, key).resolved() for key in self._used()}
+        tables: dict[str, Any] = {
+            key: resolved(SECTIONS[key], getattr(self, key)) for key in self._used()
+        }
         if self.runs:
             tables["runs"] = {
-                name: run.resolved()
+                name: resolved(SOLVERS, run)
                 | {"time_step": self.time_step(name)}
                 | ({"wheel": self.wheel(name)} if isinstance(run, SurfaceRun) else {})
                 for name, run in self.runs.items()
@@ -113,15 +132,40 @@ class Study:
 
     def units(self) -> dict[str, str]:
         """Dotted key of `config` -> SI unit, for keys that have one."""
-        found = {f"{t}.{k}": u for t in self._used() for k, u in getattr(self, t).units().items()}
-        for name, run in self.runs.items():
-            found |= {f"runs.{name}.{key}": unit for key, unit in run.units().items()}
-        return found
+        config = self.config()
+        tables: list[tuple[str, Table, Any]] = [(k, SECTIONS[k], config[k]) for k in self._used()]
+        tables += [(f"runs.{n}", SOLVERS, run) for n, run in config.get("runs", {}).items()]
+        return {
+            f"{path}.{key}": unit
+            for path, table, values in tables
+            for key, unit in units(table, values).items()
+        }
 
     def _used(self) -> list[str]:
         if not self.runs:
             return ["irregularity", "track"]
         meshed = any(self.bodies(run) for run in self.runs)
-        placed = meshed and self.solid.section == "whole"
+        placed = meshed and not self.solid.half
         used = {"solid": meshed, "wheelset": placed, "scan": placed and self.scan.used}
         return [key for key in SECTIONS if used.get(key, True)]
+
+
+def wrong_types(tables: dict[str, Any]) -> list[str]:
+    """Complaints about tables that are not what the study is made of."""
+    problems = []
+    for key, value in tables.items():
+        table = SECTIONS[key]
+        classes = tuple(table.classes.values()) if isinstance(table, Variants) else (table,)
+        if not isinstance(value, classes):
+            names = " or ".join(made.__name__ for made in classes)
+            problems.append(complaint(key, repr(value), f"must be of type {names}"))
+    return problems
+
+
+def wrong_reference(reference: Any, runs: Collection[str]) -> list[str]:
+    """Complaint about a reference that is no run."""
+    if reference is None or reference in runs:
+        return []
+    allowed = f"must be a run of the study: {', '.join(runs) or 'it has none'}"
+    hint = did_you_mean(str(reference), runs)
+    return [complaint("compare.reference", reference, allowed + hint)]

@@ -3,18 +3,24 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from functools import lru_cache
-from typing import Literal
+from typing import Annotated, Literal
 
 import numpy as np
 
 from contactstudy.exceptions import ContactStudyError, InputError
 from contactstudy.geometry.pose import Pose
-from contactstudy.geometry.wheelset import SIDES, Side, Wheelset
+from contactstudy.geometry.wheelset import (
+    SIDES,
+    SMALL_ANGLE,
+    Side,
+    Wheelset,
+    WheelsetDimensions,
+)
 from contactstudy.profiles.curve import ProfileCurve
 from contactstudy.profiles.named import rail_curve, wheel_curve
-from contactstudy.study import quantities as q
-from contactstudy.study.section import Section
+from contactstudy.validation import AtLeast, AtMost, File, Naming, Unit
 
 PATHS = ("wheel_profile", "rail_profile")
 """Keys that may hold a file's name instead of a profile's."""
@@ -28,30 +34,29 @@ _FLANGE = math.radians(45)
 _BESIDE = 0.05
 
 
-class WheelsetTable(Section):
-    """``[wheelset]``: used with ``solid.section = "whole"``.
+@dataclass(frozen=True)
+class WheelsetPosition(WheelsetDimensions):
+    """Profiles, and where the wheelset stands; used with ``solid.section = "whole"``.
 
     Shift, yaw and roll are those of the wheelset: to the right, clockwise seen from above, right
     side down; ``side`` is the wheel that is studied. The rail's surface is that of the rail which
     is meshed unless ``rail_profile`` names another one.
     """
 
-    wheel_profile: str = "S1002"
-    rail_profile: str = ""
-    rail_inclination: q.Inclination = math.atan(1 / 40)
-    side: Literal["left", "right"] = "right"
-    lateral_shift: q.LateralShift = 0.0
-    yaw: q.SmallAngle = 0.0
-    roll: q.RestOrAngle = "rest"
-    gauge: q.Length = 1.435
-    gauge_depth: q.Length = 0.014
-    flange_backs: q.Length = 1.360
-    tape_line: q.LengthOrZero = 0.070
-
-    def units(self) -> dict[str, str]:
-        """Key -> SI unit."""
-        found = super().units() | {"rail_inclination": "rad", "roll": "rad"}
-        return found if self.roll != "rest" else {k: v for k, v in found.items() if k != "roll"}
+    wheel_profile: Annotated[
+        str, File(True), "S1002, cone, cylinder, or a CSV file with points"
+    ] = "S1002"
+    rail_profile: Annotated[
+        str, File(True), "a profile or a CSV file; the meshed rail's if left out"
+    ] = ""
+    side: Annotated[Side, "which wheel"] = "right"
+    lateral_shift: Annotated[
+        float, Unit("m"), AtLeast(-0.05), AtMost(0.05), "of the wheelset, to the right"
+    ] = 0.0
+    yaw: Annotated[float, *SMALL_ANGLE, "of the wheelset, clockwise seen from above"] = 0.0
+    roll: Annotated[
+        float | Literal["rest"], *SMALL_ANGLE, "right side down; at rest both wheels touch"
+    ] = "rest"
 
     def curves(self, meshed_rail: str) -> tuple[ProfileCurve, ProfileCurve]:
         """Smooth profiles of rail and wheel.
@@ -85,7 +90,7 @@ class WheelsetTable(Section):
         return _pose(self, rail, wheel, radius)
 
 
-def problems_of(table: WheelsetTable, meshed_rail: str, radius: float) -> list[str]:
+def problems_of(table: WheelsetPosition, meshed_rail: str, radius: float) -> list[str]:
     """What is wrong with profiles and position together."""
     try:
         table.pose(*table.curves(meshed_rail), radius)
@@ -97,12 +102,9 @@ def problems_of(table: WheelsetTable, meshed_rail: str, radius: float) -> list[s
 
 
 @lru_cache(maxsize=16)
-def _pose(table: WheelsetTable, rail: ProfileCurve, wheel: ProfileCurve, radius: float) -> Pose:
-    wheelset = Wheelset(
-        wheel, rail, radius, table.rail_inclination, table.gauge, table.gauge_depth,
-        table.flange_backs, table.tape_line,
-    )  # fmt: skip
-    if beside := off_track("wheelset", wheelset):
+def _pose(table: WheelsetPosition, rail: ProfileCurve, wheel: ProfileCurve, radius: float) -> Pose:
+    wheelset = Wheelset.of(table, wheel, rail, radius)
+    if beside := off_track(lambda name: f"wheelset.{name}", wheelset):
         raise InputError(beside)
     shift, yaw, roll = table.lateral_shift, table.yaw, table.roll
     at_rest = isinstance(roll, str)
@@ -119,21 +121,24 @@ def complaint_of_position(key: str, shift: float, yaw: float) -> str:
     return f"{key} = {1e3 * shift:g} mm with a yaw of {1e3 * yaw:g} mrad"
 
 
-def off_track(path: str, wheelset: Wheelset) -> list[str]:
+def off_track(key: Naming, wheelset: Wheelset) -> list[str]:
     """Complaint about a wheelset that is too wide or too narrow for its track.
 
     Parameters
     ----------
-    path : str
-        The table whose keys are named.
+    key : callable
+        From a dimension to how the caller knows it.
     wheelset : Wheelset
     """
     beside = wheelset.half - wheelset.gauge / 2 + wheelset.gauge_point()
     if abs(beside) <= _BESIDE:
         return []
+    given = ", ".join(
+        f"{key(name)} = {getattr(wheelset, name):g} m"
+        for name in ("gauge", "flange_backs", "tape_line")
+    )
     return [
-        f"{path}.gauge = {wheelset.gauge:g} m, {path}.flange_backs = {wheelset.flange_backs:g} m, "
-        f"{path}.tape_line = {wheelset.tape_line:g} m: the tape circles of a centred wheelset lie "
+        f"{given}: the tape circles of a centred wheelset lie "
         f"{1e3 * abs(beside):.4g} mm {'outside' if beside > 0 else 'inside'} the rails' crowns; "
         f"must be at most {1e3 * _BESIDE:g} mm"
     ]

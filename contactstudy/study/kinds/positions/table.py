@@ -7,93 +7,132 @@ import re
 import tomllib
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import BeforeValidator, ValidationError
-
 from contactstudy.exceptions import InputError
-from contactstudy.geometry.wheelset import Wheelset
+from contactstudy.geometry.wheelset import SIDES, SMALL_ANGLE, Side, Wheelset, WheelsetDimensions
 from contactstudy.halfspace.hertz import contact_modulus
 from contactstudy.profiles.curve import ProfileCurve
 from contactstudy.profiles.named import rail_curve, wheel_curve
-from contactstudy.study import quantities as q
-from contactstudy.study.kinds.passage.wheelset import PATHS, off_track
+from contactstudy.study.kinds.passage.wheelset import PATHS, WheelsetPosition, off_track
 from contactstudy.study.loading import find_study
-from contactstudy.study.messages import complaint, from_validation, unknown
 from contactstudy.study.overrides import override
-from contactstudy.study.paths import resolve_paths
-from contactstudy.study.section import Section
-from contactstudy.units import Limits, UnitError, to_si
+from contactstudy.track.rail import Rail
+from contactstudy.units import UnitError, to_si
+from contactstudy.validation import (
+    Above,
+    AtLeast,
+    AtMost,
+    File,
+    Naming,
+    Same,
+    Unit,
+    Written,
+    complaint,
+    read,
+    resolve_paths,
+    units,
+    unknown,
+)
+from contactstudy.vehicle import WheelColumn
 
 _RANGE = re.compile(r"(.+?)\s+to\s+(.+?)\s+by\s+(.+)")
 _MOST = 1001
 _TOP_LEVEL = ("title", "description", "positions")
 
 
+def _series(value: Any, unit: str) -> Any:
+    """List of one quantity, or of "0 mm to 10 mm by 0.5 mm"; a list, or "rest", as it is."""
+    if isinstance(value, str) and (match := _RANGE.fullmatch(value.strip())):
+        first, last, step = (to_si(part, unit) for part in match.groups())
+        count = (last - first) / step if step else math.inf
+        if not 0 <= count <= _MOST - 1 or abs(count - round(count)) > 1e-6:
+            raise UnitError(
+                f"must lead from the first to the last value in whole steps, {_MOST} at most"
+            )
+        return [float(f"{first + k * step:.12g}") for k in range(round(count) + 1)]
+    if isinstance(value, list | tuple) and not value:
+        raise UnitError("must hold at least one value")
+    return value if isinstance(value, list | tuple) else [value]
+
+
+SERIES = Written(_series)
+
+
 @dataclass(frozen=True)
-class Series(Limits):
-    """Reads one quantity, a list of them, or "0 mm to 10 mm by 0.5 mm", each within limits."""
-
-    def __call__(self, value: Any) -> tuple[float, ...]:  # type: ignore[override]
-        """SI values; `UnitError` with what is allowed otherwise."""
-        if isinstance(value, str) and (match := _RANGE.fullmatch(value.strip())):
-            first, last, step = (to_si(part, self.unit) for part in match.groups())
-            count = (last - first) / step if step else math.inf
-            if not 0 <= count <= _MOST - 1 or abs(count - round(count)) > 1e-6:
-                raise UnitError(
-                    f"must lead from the first to the last value in whole steps, {_MOST} at most"
-                )
-            value = [float(f"{first + k * step:.12g}") for k in range(round(count) + 1)]
-        values = value if isinstance(value, list | tuple) else [value]
-        if not values:
-            raise UnitError("must hold at least one value")
-        one = Limits.__call__
-        return tuple(float(one(self, v)) for v in values)
-
-
-def _rest_or(series: Series) -> Callable[[Any], Any]:
-    def read(value: Any) -> Any:
-        return value if value == "rest" else series(value)
-
-    return read
-
-
-_ANGLE = Series("rad", at_least=-0.2, at_most=0.2)
-Lengths = Annotated[tuple[float, ...], BeforeValidator(Series("m", at_least=-0.1, at_most=0.1))]
-Angles = Annotated[tuple[float, ...], BeforeValidator(_ANGLE)]
-Rolls = Annotated[Literal["rest"] | tuple[float, ...], BeforeValidator(_rest_or(_ANGLE))]
-CellSide = Annotated[float, BeforeValidator(Limits("m", at_least=2e-5, at_most=1e-3))]
-
-
-class PositionsTable(Section):
+class Positions(WheelsetDimensions):
     """``[positions]``: a wheelset, its rails, where it stands, and the load on each wheel."""
 
-    wheels: tuple[Literal["left", "right"], ...] = ("left", "right")
-    lateral: Lengths = (0.0,)
-    yaw: Angles = (0.0,)
-    roll: Rolls = "rest"
-    load: q.Force = 67.4e3
-    wheel_profile: str = "S1002"
-    rail_profile: str = "60E1"
-    wheel_radius: q.Length = 0.43
-    rail_inclination: q.Inclination = math.atan(1 / 40)
-    gauge: q.Length = 1.435
-    gauge_depth: q.Length = 0.014
-    flange_backs: q.Length = 1.360
-    tape_line: q.LengthOrZero = 0.070
-    origin: q.Position = 0.0
-    youngs_modulus: q.Modulus = 210e9
-    poisson_ratio: q.Ratio = 0.3
-    cell: CellSide = 0.2e-3
+    wheels: Annotated[tuple[Side, ...], "which wheels are pressed"] = SIDES
+    lateral: Annotated[
+        tuple[float, ...], Unit("m"), AtLeast(-0.1), AtMost(0.1), SERIES,
+        "lateral shifts of the wheelset, to the right",
+    ] = (0.0,)  # fmt: skip
+    yaw: Annotated[
+        tuple[float, ...], *SMALL_ANGLE, SERIES, "one for all or for each, clockwise from above"
+    ] = (0.0,)
+    roll: Annotated[
+        Literal["rest"] | tuple[float, ...], *SMALL_ANGLE, SERIES,
+        "right side down, one for all or for each; at rest both wheels touch",
+    ] = "rest"  # fmt: skip
+    load: Annotated[float, Unit("N"), Above(0), "vertical load on each wheel"] = 67.4e3
+    wheel_profile: Annotated[str, Same(WheelsetPosition, "wheel_profile")] = "S1002"
+    rail_profile: Annotated[str, File(True), "profile, or a CSV file with points"] = "60E1"
+    wheel_radius: Annotated[float, Same(WheelColumn, "wheel_radius")] = WheelColumn.wheel_radius
+    origin: Annotated[
+        float, Unit("m"), "Y of the rail's crown that lateral positions are measured from"
+    ] = 0.0
+    youngs_modulus: Annotated[float, Same(Rail, "youngs_modulus")] = Rail.youngs_modulus
+    poisson_ratio: Annotated[float, Same(Rail, "poisson_ratio")] = Rail.poisson_ratio
+    cell: Annotated[
+        float, Unit("m"), AtLeast(2e-5), AtMost(1e-3), "side of the half-spaces' cells"
+    ] = 0.2e-3
+
+    def problems(self, key: Naming) -> list[str]:
+        """Series of unequal lengths, and wheels named twice."""
+        n = len(self.lateral)
+        problems = [
+            f"{key(name)}: has {len(values)} values; must have one, or one for each of the "
+            f"{n} of {key('lateral')}"
+            for name in ("yaw", "roll")
+            if not isinstance(values := getattr(self, name), str) and len(values) not in (1, n)
+        ]
+        if not self.wheels or len(set(self.wheels)) < len(self.wheels):
+            problems.append(f'{key("wheels")}: must name "left", "right" or both, once each')
+        return problems + self._wheelset(key)[1]
+
+    @property
+    def wheelset(self) -> Wheelset:
+        """The wheelset on its track, with its profiles."""
+        made, problems = self._wheelset(lambda name: name)
+        if made is None:
+            raise InputError(problems)
+        return made
+
+    def _wheelset(self, key: Naming) -> tuple[Wheelset | None, list[str]]:
+        problems: list[str] = []
+
+        def curve(name: str, make: Callable[[str], ProfileCurve]) -> ProfileCurve | None:
+            try:
+                return make(getattr(self, name))
+            except InputError as error:
+                problems.extend(f"{key(name)}: {problem}" for problem in error.problems)
+                return None
+
+        wheel, rail = curve("wheel_profile", wheel_curve), curve("rail_profile", rail_curve)
+        if wheel is None or rail is None:
+            return None, problems
+        made = Wheelset.of(self, wheel, rail, self.wheel_radius)
+        try:
+            return made, off_track(key, made)
+        except InputError as error:
+            return None, [f"{key('gauge_depth')}: {problem}" for problem in error.problems]
 
     def units(self) -> dict[str, str]:
         """Key -> SI unit."""
-        return (
-            super().units()
-            | {"rail_inclination": "rad"}
-            | ({} if self.roll == "rest" else {"roll": "rad"})
-        )
+        return units(Positions, self.resolved())
 
 
 @dataclass(frozen=True)
@@ -103,16 +142,18 @@ class PositionsStudy:
     Attributes
     ----------
     name, title, description : str
-    table : PositionsTable
-    wheelset : Wheelset
-        With the profiles of the table.
+    table : Positions
     """
 
     name: str
     title: str
     description: str
-    table: PositionsTable
-    wheelset: Wheelset
+    table: Positions
+
+    @cached_property
+    def wheelset(self) -> Wheelset:
+        """The wheelset on its track, with its profiles."""
+        return self.table.wheelset
 
     @property
     def positions(self) -> list[tuple[float, float, float | None]]:
@@ -157,8 +198,8 @@ def load_positions(study: str | Path, overrides: Iterable[str] = ()) -> Position
         return None  # `load_study` says what is wrong
     if "positions" not in data:
         return None
-    resolve_paths(data["positions"], PATHS, path.parent, or_name=True)
-    problems = override(data, overrides, {"positions": PositionsTable})
+    resolve_paths(Positions, data["positions"], path.parent)
+    problems = override(data, overrides, {"positions": Positions})
     return _parsed(path.stem, data, problems)
 
 
@@ -170,55 +211,8 @@ def _parsed(name: str, data: Mapping[str, Any], problems: list[str]) -> Position
         for key, value in (("title", title), ("description", description))
         if not isinstance(value, str)
     ]
-    table, wheelset = None, None
-    if not isinstance(data["positions"], Mapping):
-        found.append(complaint("positions", data["positions"], "must be a table"))
-    else:
-        try:
-            table = PositionsTable.model_validate(data["positions"])
-        except ValidationError as error:
-            found += from_validation(error, PositionsTable, "positions")
-    if table is not None:
-        found += _lengths(table)
-        wheelset, wrong = _wheelset(table)
-        found += wrong
-    if found or table is None or wheelset is None:
+    table, wrong = read(Positions, data["positions"], "positions")
+    found += wrong
+    if found:
         raise InputError(found)
-    return PositionsStudy(name, title, description, table, wheelset)
-
-
-def _lengths(table: PositionsTable) -> list[str]:
-    n = len(table.lateral)
-    problems = [
-        f"positions.{key}: has {len(values)} values; must have one, or one for each of the "
-        f"{n} of positions.lateral"
-        for key in ("yaw", "roll")
-        if not isinstance(values := getattr(table, key), str) and len(values) not in (1, n)
-    ]
-    if not table.wheels or len(set(table.wheels)) < len(table.wheels):
-        problems.append('positions.wheels: must name "left", "right" or both, once each')
-    return problems
-
-
-def _wheelset(table: PositionsTable) -> tuple[Wheelset | None, list[str]]:
-    problems: list[str] = []
-
-    def curve(key: str, make: Callable[[str], ProfileCurve]) -> ProfileCurve | None:
-        try:
-            return make(getattr(table, key))
-        except InputError as error:
-            problems.extend(f"positions.{key}: {problem}" for problem in error.problems)
-            return None
-
-    wheel, rail = curve("wheel_profile", wheel_curve), curve("rail_profile", rail_curve)
-    if wheel is None or rail is None:
-        return None, problems
-    t = table
-    made = Wheelset(
-        wheel, rail, t.wheel_radius, t.rail_inclination, t.gauge, t.gauge_depth, t.flange_backs,
-        t.tape_line,
-    )  # fmt: skip
-    try:
-        return made, off_track("positions", made)
-    except InputError as error:
-        return None, [f"positions.gauge_depth: {problem}" for problem in error.problems]
+    return PositionsStudy(name, title, description, table)

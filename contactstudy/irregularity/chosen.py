@@ -1,0 +1,166 @@
+"""The irregularity of a study: generated from a spectrum, measured, or none."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from contactstudy.irregularity.measured import Interpolation, MeasuredProfile, measured_profile
+from contactstudy.irregularity.profile import Profile, SmoothRail
+from contactstudy.irregularity.psd import Spectrum
+from contactstudy.irregularity.sample import sample_profile
+from contactstudy.irregularity.spectra import paper_spectrum, spectrum
+from contactstudy.validation import (
+    Above,
+    AtLeast,
+    File,
+    Naming,
+    Parameters,
+    Unit,
+    When,
+    complaint,
+)
+
+GENERATED = (
+    "paper", "german_low", "german_high", "fra1", "fra2", "fra3", "fra4", "fra5", "fra6", "tbt3352",
+)  # fmt: skip
+_PAPER = When("spectrum", "paper")
+_GENERATED = When("spectrum", *GENERATED)
+_MEASURED = When("spectrum", "measured")
+# how a CSV file is read
+_CSV = (
+    "x_column", "level_column", "level_unit", "origin", "wavelengths", "interpolation",
+    "measured_overlay",
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Irregularity(Parameters):
+    """Vertical level of the running surface, up positive.
+
+    ``irregularity.profile()`` is the function of X that the solvers take.
+    """
+
+    spectrum: Annotated[
+        Literal[
+            "paper", "german_low", "german_high", "fra1", "fra2", "fra3", "fra4", "fra5", "fra6",
+            "tbt3352", "measured", "smooth",
+        ],
+        "formula that the profile is generated from, or a measured or smooth one",
+    ] = "paper"  # fmt: skip
+    roughness: Annotated[
+        float, Unit("m^2*rad/m"), Above(0), _PAPER, "A_r of eq. (3)"
+    ] = 0.8e-7  # fmt: skip
+    omega_1: Annotated[float, Unit("rad/m"), AtLeast(0), _PAPER, "of eq. (3)"] = 0.0
+    omega_2: Annotated[float, Unit("rad/m"), Above(0), _PAPER, "of eq. (3)"] = 1.0
+    seed: Annotated[int, AtLeast(0), _GENERATED, "of the random phases"] = 1
+    terms: Annotated[int, AtLeast(1), _GENERATED, "number of terms N of eq. (1)"] = 1000
+    band: Annotated[
+        tuple[float, float], Unit("rad/m"), Above(0), _GENERATED, "lowest and highest wavenumber"
+    ] = (0.08, 20.0)
+    jitter: Annotated[
+        bool, _GENERATED, "wavenumbers at random in their intervals: nothing repeats itself"
+    ] = False
+    file: Annotated[str, File(), _MEASURED, "CSV file with the measured level"] = ""
+    measured_overlay: Annotated[
+        str,
+        File(),
+        When("spectrum", *GENERATED, "smooth"),
+        "CSV file that is drawn beside it",
+    ] = ""
+    x_column: Annotated[str, "column of the CSV file with the position in m"] = "x"
+    level_column: Annotated[str, "column with the level, up positive"] = ""
+    level_unit: Annotated[Literal["mm", "m"], "its unit"] = "mm"
+    origin: Annotated[float, Unit("m"), _MEASURED, "position in the file that is X = 0"] = 0.0
+    wavelengths: Annotated[
+        tuple[float, float], Unit("m"), Above(0), "shortest and longest wavelength that is kept"
+    ] = (2.5, 42.0)
+    interpolation: Annotated[Interpolation, _MEASURED, "between the positions"] = "cubic"
+
+    def problems(self, key: Naming) -> list[str]:
+        """Ranges that fall, and a measured level without file or column."""
+        problems = [
+            complaint(key(name), list(pair), f"must increase, lowest first ({unit})")
+            for name, pair, unit in (
+                ("band", self.band, "rad/m"),
+                ("wavelengths", self.wavelengths, "m"),
+            )
+            if not pair[0] < pair[1]
+        ]
+        if self.spectrum == "measured" and not self.file:
+            problems.append(
+                f"{key('file')}: is missing; a measured irregularity needs a CSV file "
+                "(--set irregularity.file=PATH)"
+            )
+        if self.measured_file and not self.level_column:
+            problems.append(
+                f"{key('level_column')}: is missing; name the column of the CSV with the level"
+            )
+        return problems
+
+    @property
+    def measured_file(self) -> str:
+        """The CSV file in use or to be drawn beside, "" for none."""
+        return self.file if self.spectrum == "measured" else self.measured_overlay
+
+    @property
+    def generated(self) -> bool:
+        """Whether the profile is made from a spectrum."""
+        return self.spectrum in GENERATED
+
+    def resolved(self) -> dict[str, Any]:
+        """Key -> SI value; how to read a CSV is left out where none is named."""
+        values = super().resolved()
+        return values if self.measured_file else {k: values[k] for k in values if k not in _CSV}
+
+    def formula(self) -> Spectrum:
+        """The spectrum that is generated from; Table 1's where nothing is generated."""
+        if self.spectrum == "paper":
+            return paper_spectrum(self.roughness, self.omega_1, self.omega_2)
+        return spectrum(self.spectrum) if self.generated else paper_spectrum()
+
+    def profile(
+        self, direction: Literal["Z", "Y"] = "Z", required: tuple[float, float] | None = None
+    ) -> Profile:
+        """The profile, as a function of X.
+
+        Parameters
+        ----------
+        direction : {"Z", "Y"}
+            Vertical, or the seed's independent transverse profile.
+        required : tuple of float, optional
+            Range of X that a measured profile has to cover [m].
+
+        Raises
+        ------
+        InputError
+            When a measured file cannot be used or does not cover the range.
+        """
+        if self.spectrum == "smooth":
+            return SmoothRail()
+        if self.spectrum == "measured":
+            return self.measured(self.wavelengths, required)
+        return sample_profile(
+            self.formula(),
+            self.seed,
+            self.terms,
+            self.band,
+            self.jitter,
+            "vertical" if direction == "Z" else "transverse",
+        )
+
+    def measured(
+        self,
+        wavelengths: tuple[float, float] | None,
+        required: tuple[float, float] | None = None,
+    ) -> MeasuredProfile:
+        """The level of `measured_file`, with the wavelengths that are kept; None: all of them."""
+        return measured_profile(
+            Path(self.measured_file),
+            self.level_column,
+            self.level_unit,
+            x_column=self.x_column,
+            origin=self.origin if self.spectrum == "measured" else 0.0,
+            wavelengths=wavelengths,
+            interpolation=self.interpolation,
+            required=required,
+        )

@@ -1,0 +1,115 @@
+"""From the content of a study file to a passage; everything that is wrong at once."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+from contactstudy.exceptions import InputError
+from contactstudy.study.kinds.passage.checks import combined
+from contactstudy.study.kinds.passage.runs import SOLVERS
+from contactstudy.study.kinds.passage.schema import IRREGULARITY, SECTIONS, Study, wrong_reference
+from contactstudy.study.overrides import override
+from contactstudy.validation import complaint, did_you_mean, read, resolve_paths, unknown
+
+_TOP_LEVEL = ("title", "description", "companions", *SECTIONS, "runs", "compare")
+_RUN_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
+_SHARED = ("track", "vehicle", "journey", "solid", "wheelset", "scan")
+
+
+def load_passage(
+    path: Path, data: dict[str, Any], overrides: Iterable[str], main: Study | None = None
+) -> Study:
+    """Check the content of a passage's file, with overrides; files in it are relative to it."""
+    companions = data.get("companions")
+    if isinstance(companions, list):
+        data["companions"] = [
+            str(path.parent / c) if isinstance(c, str) and (path.parent / c).is_file() else c
+            for c in companions
+        ]
+    for key, table in SECTIONS.items():
+        resolve_paths(table, data.get(key), path.parent)
+    problems = override(data, overrides, SECTIONS, {"runs": SOLVERS})
+    return parse_study(path.stem, data, problems, main)
+
+
+def parse_study(
+    name: str, data: Mapping[str, Any], problems: Iterable[str] = (), main: Study | None = None
+) -> Study:
+    """Check the content of a study file (as TOML gives it); further `problems` are included.
+
+    Raises
+    ------
+    InputError
+        Listing every problem.
+    """
+    found = list(problems)
+    found += [unknown("", key, _TOP_LEVEL) for key in data if key not in _TOP_LEVEL]
+    tables: dict[str, Any] = {}
+    for key, table in SECTIONS.items():
+        if main is not None and key in _SHARED and key not in data:
+            tables[key] = getattr(main, key)
+            continue
+        made, wrong = read(table, data.get(key, {}), key)
+        found += wrong
+        if made is not None:
+            tables[key] = made
+    if {"track", "solid"} <= tables.keys():
+        solid = tables["solid"]
+        if "solid" not in data or not solid.given("cell_length"):
+            tables["solid"] = solid.fitting(tables["track"])
+    runs, wrong = _runs(data.get("runs", {}))
+    texts, wrong_texts = _texts(name, data)
+    reference, wrong_compare = _reference(data, list(data["runs"]) if runs else [])
+    found += wrong + combined(tables, runs) + wrong_texts + wrong_compare
+    if found:
+        raise InputError(found)
+    return Study(name=name, **texts, **tables, runs=runs, reference=reference)
+
+
+def _runs(data: Any) -> tuple[dict[str, Any], list[str]]:
+    if not isinstance(data, Mapping):
+        return {}, [complaint("runs", data, "must hold one table a run, [runs.NAME]")]
+    runs, problems = {}, []
+    for name, table in data.items():
+        path = f"runs.{name}"
+        if not _RUN_NAME.fullmatch(name):
+            problems.append(f"{path}: a run's name is letters, digits and _, a letter first")
+        elif name == IRREGULARITY:
+            problems.append(f"{path}: a run cannot be called '{name}', which names its own group")
+        if not isinstance(table, Mapping) or "solver" not in table:
+            hint = did_you_mean(name, [other for other in data if other != name])
+            misspelt = f"; or is the run's name misspelt{hint}" if hint else ""
+            problems.append(f'{path}.solver: is missing; must be "point" or "surface"{misspelt}')
+            continue
+        run, wrong = read(SOLVERS, table, path)
+        problems += wrong
+        if run is not None:
+            runs[name] = run
+    return runs, problems
+
+
+def _texts(name: str, data: Mapping[str, Any]) -> tuple[dict[str, Any], list[str]]:
+    title, description = data.get("title", name), data.get("description", "")
+    companions = data.get("companions", [])
+    problems = [
+        complaint(key, value, "must be text")
+        for key, value in (("title", title), ("description", description))
+        if not isinstance(value, str)
+    ]
+    if not isinstance(companions, list) or not all(isinstance(c, str) for c in companions):
+        problems.append(complaint("companions", companions, "must be a list of names of studies"))
+        companions = []
+    texts = {"title": title, "description": description, "companions": tuple(companions)}
+    return texts, problems
+
+
+def _reference(data: Mapping[str, Any], runs: list[str]) -> tuple[str | None, list[str]]:
+    table = data.get("compare", {})
+    if not isinstance(table, Mapping):
+        return None, [complaint("compare", table, "must be a table")]
+    problems = [unknown("compare", key, ["reference"]) for key in table if key != "reference"]
+    reference = table.get("reference", runs[0] if len(runs) > 1 else None)
+    return reference, problems + wrong_reference(reference, runs)
