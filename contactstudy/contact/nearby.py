@@ -4,11 +4,11 @@ import numpy as np
 
 from contactstudy.arrays import Array, IntArray
 from contactstudy.dynamics.banded import Factor
-from contactstudy.track.patch import SurfacePatch
+from contactstudy.track.stretch import RailStretch
 
 
 class NearbyColumns:
-    """Columns of S^-1 for the dofs of the patch, kept while the wheel passes them.
+    """Columns of S^-1 for the dofs of the stretch, kept while the wheel passes them.
 
     A pure cache: which patches were asked for before changes the time, not the answer.
 
@@ -20,11 +20,11 @@ class NearbyColumns:
     Attributes
     ----------
     compliance : ndarray (nd, nd)
-        S^-1 on the dofs of the patch asked for last.
+        S^-1 on the dofs of the stretch asked for last.
     reach : slice
-        Dofs of the system that a load on that patch moves.
+        Dofs of the system that a load on that stretch moves.
     response : ndarray (nd, reach)
-        Their displacements for unit loads on the dofs of the patch.
+        Their displacements for unit loads on the dofs of the stretch.
     """
 
     def __init__(self, factor: Factor) -> None:
@@ -32,11 +32,11 @@ class NearbyColumns:
         self._columns: dict[int, Array] = {}
         self._key: int | None = None
 
-    def move_to(self, patch: SurfacePatch) -> None:
-        """Have the columns of a patch at hand."""
-        if patch.key == self._key:
+    def move_to(self, stretch: RailStretch) -> None:
+        """Have the columns of a stretch at hand."""
+        if stretch.key == self._key:
             return
-        self._key, dofs = patch.key, patch.dofs
+        self._key, dofs = stretch.key, stretch.dofs
         wanted = sorted(set(dofs.tolist()))
         missing = [d for d in wanted if d not in self._columns]
         unit = np.zeros((self._factor.n, len(missing)))
@@ -54,6 +54,6 @@ class NearbyColumns:
         C = columns[:, dofs]
         self.compliance: Array = 0.5 * (C + C.T)
 
-    def displacement(self, patch: SurfacePatch, of: IntArray) -> Array:
-        """Displacement (nd, k) of k dofs of the system for unit loads on the patch's dofs."""
-        return np.stack([self._columns[d][of] for d in patch.dofs.tolist()])
+    def displacement(self, stretch: RailStretch, of: IntArray) -> Array:
+        """Displacement (nd, k) of k dofs of the system for unit loads on the stretch's dofs."""
+        return np.stack([self._columns[d][of] for d in stretch.dofs.tolist()])

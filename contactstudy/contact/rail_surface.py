@@ -9,7 +9,7 @@ from contactstudy.contact.residual import Blend, ResidualFlexibility
 from contactstudy.geometry.interpolation import SplineLine
 from contactstudy.geometry.points import ContactPoints
 from contactstudy.track.meshed import MeshedTrack
-from contactstudy.track.patch import SurfacePatch
+from contactstudy.track.stretch import RailStretch
 
 
 @dataclass(frozen=True, eq=False)
@@ -18,16 +18,16 @@ class RailUnderWheel:
 
     Attributes
     ----------
-    patch : SurfacePatch
+    stretch : RailStretch
     along, across : ndarray (npx, nx), (npy, ny)
-        Interpolation P = along x across from the patch's nodes to the points.
+        Interpolation P = along x across from the stretch's nodes to the points.
     residual : Blend
         Flexibility (n, n) of the points that the track's dofs leave out, see `contact.residual`.
     static : ndarray (nd, nd) or None
         What the residual holds of the dofs' flexibility already [m/N].
     """
 
-    patch: SurfacePatch
+    stretch: RailStretch
     along: Array
     across: Array
     residual: Blend
@@ -45,7 +45,7 @@ class RailUnderWheel:
         return P.reshape(len(index), -1)
 
     def beyond(self, C: Array) -> Array:
-        """Flexibility C (nd, nd) of the patch's dofs less what the residual holds of it."""
+        """Flexibility C (nd, nd) of the stretch's dofs less what the residual holds of it."""
         return C if self.static is None else C - self.static
 
 
@@ -75,19 +75,19 @@ class RailSurface:
         return self._last[1]
 
     def _under(self, X: float) -> RailUnderWheel:
-        patch = self._track.patch(X, self.half_length)
+        stretch = self._track.stretch(X, self.half_length)
         if self._lines is None:
-            self._lines = self._interpolation(patch)
+            self._lines = self._interpolation(stretch)
         spline, across, residual = self._lines
-        along = spline(X - patch.x[0] + self._points.x)
-        static = None if self._track.residual_period is None else patch.local
-        return RailUnderWheel(patch, along, across, residual(X, patch), static)
+        along = spline(X - stretch.x[0] + self._points.x)
+        static = None if self._track.residual_period is None else stretch.local
+        return RailUnderWheel(stretch, along, across, residual(X, stretch), static)
 
-    def _interpolation(self, patch: SurfacePatch) -> tuple[SplineLine, Array, ResidualFlexibility]:
-        """Splines from the nodes of any patch, which stand at equal distances, and the residual."""
+    def _interpolation(self, stretch: RailStretch) -> tuple[SplineLine, Array, ResidualFlexibility]:
+        """Splines from the equally spaced nodes of any stretch, and the residual."""
         track, points = self._track, self._points
-        along = SplineLine(patch.x - patch.x[0])
-        across = SplineLine(patch.arc, mirrored=points.symmetric)(points.arc)
+        along = SplineLine(stretch.x - stretch.x[0])
+        across = SplineLine(stretch.arc, mirrored=points.symmetric)(points.arc)
         period = track.residual_period
         residual = ResidualFlexibility(along, across, points.x, track.thickness, period)
         return along, across, residual

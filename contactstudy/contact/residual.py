@@ -18,7 +18,7 @@ import numpy as np
 
 from contactstudy.arrays import Array, IntArray
 from contactstudy.geometry.interpolation import SplineLine
-from contactstudy.track.patch import SurfacePatch
+from contactstudy.track.stretch import RailStretch
 
 PHASES = np.array([-0.375, -0.125, 0.125, 0.375])
 """Shifts of the points in mesh steps."""
@@ -48,7 +48,7 @@ class ResidualFlexibility:
     Parameters
     ----------
     along : SplineLine
-        Interpolation along the rail from the nodes of a patch, counted from its first.
+        Interpolation along the rail from the nodes of a stretch, counted from its first.
     across : ndarray (npy, ny)
         Interpolation across the rail.
     points_x : ndarray (npx,)
@@ -73,33 +73,33 @@ class ResidualFlexibility:
         self._step, self._period = step, period
         self._kept: dict[int, Array] = {}
 
-    def __call__(self, X: float, patch: SurfacePatch) -> Blend:
-        """Flexibility (n, n) in m/N with the wheel at X over a patch there.
+    def __call__(self, X: float, stretch: RailStretch) -> Blend:
+        """Flexibility (n, n) in m/N with the wheel at X over a stretch there.
 
-        With ``patch.local`` the mean holds a share of the dofs' as well.
+        With ``stretch.local`` the mean holds a share of the dofs' as well.
         """
         if self._period is None:
-            exact = self._at(patch, patch.residual, X)
+            exact = self._at(stretch, stretch.residual, X)
             return Blend(0.0, exact, exact)
         scaled = X / self._step
         plane = int(np.floor(scaled))
-        return Blend(scaled - plane, self._mean(plane, patch), self._mean(plane + 1, patch))
+        return Blend(scaled - plane, self._mean(plane, stretch), self._mean(plane + 1, stretch))
 
-    def _mean(self, plane: int, patch: SurfacePatch) -> Array:
+    def _mean(self, plane: int, stretch: RailStretch) -> Array:
         assert self._period is not None
         # both sides of a change of patches have means of their own, each with its own dofs
-        key = plane - patch.key * self._period
+        key = plane - stretch.key * self._period
         if key not in self._kept:
-            F = patch.residual
-            if patch.local is not None:
-                F = F + patch.map @ patch.local @ patch.map.T
-            shifted = [self._at(patch, F, (plane + s) * self._step) for s in PHASES]
+            F = stretch.residual
+            if stretch.local is not None:
+                F = F + stretch.map @ stretch.local @ stretch.map.T
+            shifted = [self._at(stretch, F, (plane + s) * self._step) for s in PHASES]
             self._kept[key] = np.mean(shifted, axis=0)
         return self._kept[key]
 
-    def _at(self, patch: SurfacePatch, F: Array, X: float) -> Array:
+    def _at(self, stretch: RailStretch, F: Array, X: float) -> Array:
         # P = along x across; P F P^T one factor at a time
-        along = self._along(X - patch.x[0] + self._x)
+        along = self._along(X - stretch.x[0] + self._x)
         half = _rows(along, self._across, F)
         return _rows(along, self._across, np.ascontiguousarray(half.T))
 

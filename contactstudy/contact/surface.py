@@ -29,7 +29,7 @@ from contactstudy.dynamics.stepper import ContactStep
 from contactstudy.exceptions import NumericalError
 from contactstudy.geometry.search import CandidateList
 from contactstudy.track.meshed import MeshedTrack
-from contactstudy.track.patch import SectionResponse
+from contactstudy.track.stretch import SectionResponse
 
 NEAR = 0.3e-6
 """Points whose gap was below this [m] a step before enter the dense problem from the start."""
@@ -50,7 +50,7 @@ class PatchState:
     overlap : ndarray (n,)
         Penetration in m that the enforcement leaves.
     surface_load : ndarray (nodes,)
-        Nodal forces on the rail's surface patch, in N, positive into the rail.
+        Nodal forces on the stretch of rail, in N, positive into the rail.
     """
 
     forces: Array
@@ -150,21 +150,21 @@ class AttachedSurface:
         coupling, wheel, near = self._coupling, self._coupling.wheel, self._near
         points, normal = wheel.points, wheel.points.normal_z
         under = coupling.rail.under(float(coupling.path.positions[step]))
-        patch = under.patch
-        near.move_to(patch)
+        stretch = under.stretch
+        near.move_to(stretch)
         roughness = np.repeat(coupling.path.irregularity[step], len(points.y))
         free = (
             points.gap
             + wheel.map @ u_free[wheel.dofs]
             - roughness * normal
-            - under.at_points(patch.map @ u_free[patch.dofs])
+            - under.at_points(stretch.map @ u_free[stretch.dofs])
         )
         allowed = self._candidates(float(((points.gap - free) / normal).max()))
         new = self._solve(step, under, free, state, allowed)
         load = np.zeros(len(u_free))
         # a dof may be named twice, where an end of the track is held
-        modal = patch.map.T @ new.surface_load
-        np.subtract.at(load, patch.dofs, modal)
+        modal = stretch.map.T @ new.surface_load
+        np.subtract.at(load, stretch.dofs, modal)
         on_wheel = new.forces @ wheel.map
         load[wheel.dofs] += on_wheel
         # scale S^-1 load from the columns at hand, which is cheaper than another solution
@@ -176,7 +176,7 @@ class AttachedSurface:
             "peak_pressure": wheel.peak_pressure(new.forces),
             "penetration": float(new.overlap.max()),
             **patch_record(points, new.gap, new.forces),
-            **patch.centre_motion(u_free, increment, new.surface_load),
+            **stretch.centre_motion(u_free, increment, new.surface_load),
         }
         return ContactStep(load, increment, record, new)
 
@@ -188,7 +188,7 @@ class AttachedSurface:
         The dense problem holds the points that were near contact only. Its solution is checked at
         all points; those found overlapping join, so the restriction never changes the result.
         """
-        n, H = len(free), under.patch.map
+        n, H = len(free), under.stretch.map
         C = under.beyond(self._scale * self._near.compliance)
         chosen = before.gap < NEAR
         for _ in range(20):

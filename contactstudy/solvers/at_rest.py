@@ -51,18 +51,18 @@ def bodies_at_rest(
     """
     points, x = contact.points, track.track.middle if x is None else x
     under = RailSurface(track, points).under(x)
-    patch, every = under.patch, np.arange(len(points.gap))
+    stretch, every = under.stretch, np.arange(len(points.gap))
     near = NearbyColumns(Factor(track.stiffness))
-    near.move_to(patch)
+    near.move_to(stretch)
     P = under.rows(every)
-    PH = P @ patch.map
+    PH = P @ stretch.map
     tread = points.wheel_rows.matrix(len(contact.wheel.flexibility))
     W = under.residual.block(every)
     W += tread @ contact.wheel.flexibility @ tread.T
     W += PH @ under.beyond(near.compliance) @ PH.T
     # deflection of the centre line per unit nodal force; forces push the rail down
-    moved = near.displacement(patch, patch.centre_dofs) @ patch.centre_map[0]
-    return BodiesAtRest(points, W, PH @ moved + P @ patch.centre_residual[0])
+    moved = near.displacement(stretch, stretch.centre_dofs) @ stretch.centre_map[0]
+    return BodiesAtRest(points, W, PH @ moved + P @ stretch.centre_residual[0])
 
 
 def geometry_press(

@@ -5,7 +5,7 @@ from typing import Protocol
 from contactstudy.arrays import Array
 from contactstudy.solids.recipe import CellRecipe
 from contactstudy.track.discrete import DiscreteTrack
-from contactstudy.track.patch import SectionResponse, SurfacePatch
+from contactstudy.track.stretch import RailStretch, SectionResponse
 
 
 class MeshedTrack(DiscreteTrack, Protocol):
@@ -31,16 +31,16 @@ class MeshedTrack(DiscreteTrack, Protocol):
     def surface_arc(self) -> Array:
         """Arc lengths (ny,) of the running-surface nodes from the crown [m]."""
 
-    def patch(self, x: float, half_length: float) -> SurfacePatch:
+    def stretch(self, x: float, half_length: float) -> RailStretch:
         """Running surface from ``x - half_length`` to ``x + half_length`` at least [m]."""
 
     def section(self, x: float, half_length: float) -> SectionResponse:
-        """Displacement of the section near X, with the nodal forces of the patch there."""
+        """Displacement of the section near X, with the nodal forces of the stretch there."""
 
 
 def not_meshed(track: object) -> list[str]:
     """Return the complaint (or nothing) about a track without a meshed rail."""
-    if hasattr(type(track), "patch"):
+    if hasattr(type(track), "stretch"):
         return []
     return [
         f"track: a {type(track).__name__} has no meshed rail; give a SolidTrack, such as"

@@ -14,8 +14,8 @@ from contactstudy.solids.recipe import CellRecipe
 from contactstudy.track.cell_chain import MOTIONS, CellChain
 from contactstudy.track.discrete import AssembledTrack
 from contactstudy.track.model import DiscreteSupports, Rail, Track, WinklerFoundation
-from contactstudy.track.patch import SectionResponse, SurfacePatch
 from contactstudy.track.rail import Direction
+from contactstudy.track.stretch import RailStretch, SectionResponse
 from contactstudy.track.supports import SupportedRail, add_supports
 from contactstudy.track.top_load import top_load_compliance
 
@@ -150,7 +150,7 @@ class SolidTrack(AssembledTrack):
     def _top_load(self) -> Callable[[Array], Array]:
         return top_load_compliance(self)
 
-    def patch(self, x: float, half_length: float) -> SurfacePatch:
+    def stretch(self, x: float, half_length: float) -> RailStretch:
         """Running surface around X, as the contact sees it.
 
         Parameters
@@ -158,16 +158,16 @@ class SolidTrack(AssembledTrack):
         x : float
             Position of the wheel on the track [m].
         half_length : float
-            The patch covers at least ``x - half_length`` to ``x + half_length`` [m].
+            The stretch covers at least ``x - half_length`` to ``x + half_length`` [m].
 
         Returns
         -------
-        SurfacePatch
+        RailStretch
 
         Raises
         ------
         InputError
-            If the patch does not fit on two cells around X or leaves the track.
+            If the stretch does not fit on two cells around X or leaves the track.
         """
         pair, local, planes = self._planes(x, half_length)
         dofs, held = self._pair_dofs(pair)
@@ -178,7 +178,7 @@ class SolidTrack(AssembledTrack):
         t = local - at
         mean = (1 - t) * maps.centre[at] + t * maps.centre[at + 1]
         mean_residual = (1 - t) * maps.centre_residual[at] + t * maps.centre_residual[at + 1]
-        return SurfacePatch(
+        return RailStretch(
             key=pair,
             dofs=dofs,
             map=np.where(held, 0.0, rows) if held.any() else rows,
@@ -198,7 +198,7 @@ class SolidTrack(AssembledTrack):
         Parameters
         ----------
         x, half_length : float
-            As for `patch`, whose nodal forces the residual belongs to.
+            As for `stretch`, whose nodal forces the residual belongs to.
 
         Returns
         -------
@@ -219,7 +219,7 @@ class SolidTrack(AssembledTrack):
         )
 
     def _planes(self, x: float, half_length: float) -> tuple[int, float, slice]:
-        """First of the two cells around X, X in slices from its start, planes of a patch."""
+        """First of the two cells around X, X in slices from its start, planes of a stretch."""
         length, h = self.recipe.length, self.thickness
         pair = min(max(int(np.floor(x / length - 0.5)), 0), self.n_cells - 2)
         local = (x - pair * length) / h

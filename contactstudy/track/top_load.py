@@ -61,8 +61,8 @@ def _pair(track: MeshedTrack, factor: Factor, x: float) -> float:
     np.add.at(spread, dofs, weights)
     u = factor.solve(spread)
     own = float(spread @ u + track.local_compliance(np.array([x]))[0])
-    patch = track.patch(x, 2 * track.thickness)
+    stretch = track.stretch(x, 2 * track.thickness)
     # by reciprocity the motion of a node on top under the spread load
-    node = np.abs(patch.x - x).argmin() * len(patch.y) + np.abs(patch.arc).argmin()
-    top = patch.map[node] @ u[patch.dofs] + patch.centre_residual[0, node]
+    node = np.abs(stretch.x - x).argmin() * len(stretch.y) + np.abs(stretch.arc).argmin()
+    top = stretch.map[node] @ u[stretch.dofs] + stretch.centre_residual[0, node]
     return float(top) - own

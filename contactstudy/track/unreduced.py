@@ -21,8 +21,8 @@ from contactstudy.solids.section_rows import SectionRows
 from contactstudy.track.cell_chain import MOTIONS
 from contactstudy.track.discrete import AssembledTrack
 from contactstudy.track.model import Track, WinklerFoundation
-from contactstudy.track.patch import SectionResponse, SurfacePatch
 from contactstudy.track.rail import Direction
+from contactstudy.track.stretch import RailStretch, SectionResponse
 from contactstudy.track.supports import PadRow, SupportedRail, add_supports
 from contactstudy.track.top_load import top_load_compliance
 
@@ -101,8 +101,8 @@ class UnreducedTrack(AssembledTrack):
     def _top_load(self) -> Callable[[Array], Array]:
         return top_load_compliance(self)
 
-    def patch(self, x: float, half_length: float) -> SurfacePatch:
-        """Running surface around X, as `SolidTrack.patch`, with no residual left."""
+    def stretch(self, x: float, half_length: float) -> RailStretch:
+        """Running surface around X, as `SolidTrack.stretch`, with no residual left."""
         h, n = self.thickness, self._n
         first = int(np.floor((x - half_length) / h))
         last = first + int(np.ceil(2 * half_length / h)) + 1
@@ -117,7 +117,7 @@ class UnreducedTrack(AssembledTrack):
         (at,), (t,) = self._locate(np.array([x]))
         mean_dofs = np.flatnonzero(self._rows.centre.any(axis=0))
         centre = self._rows.centre[:, mean_dofs]
-        return SurfacePatch(
+        return RailStretch(
             key=first,
             dofs=self._place[(planes[:, None] * n + used).ravel()],
             map=rows,
@@ -144,7 +144,7 @@ class UnreducedTrack(AssembledTrack):
             quads=section.quads,
             dofs=self._place[plane * self._n + transverse],
             map=chosen.reshape(k, 3, -1)[:, 1:],
-            residual=np.zeros((k, 2, len(self.patch(x, half_length).map))),
+            residual=np.zeros((k, 2, len(self.stretch(x, half_length).map))),
         )
 
     @property

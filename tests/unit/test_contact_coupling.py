@@ -16,7 +16,7 @@ from contactstudy.geometry.placement import Geometry
 from contactstudy.geometry.points import contact_points
 from contactstudy.profiles.named import rail_curve, wheel_curve
 from contactstudy.solids.wheel import WheelFlexibility, WheelRecipe
-from contactstudy.track.patch import SurfacePatch
+from contactstudy.track.stretch import RailStretch
 from contactstudy.verification.cases.point_loads import boussinesq
 
 BODIES = Geometry(rail_curve("60E1"), wheel_curve("cylinder"), 0.43)
@@ -50,12 +50,12 @@ class FakeTrack:
     def __init__(self, rng: np.random.Generator) -> None:
         self.shapes = rng.standard_normal((N_TRACK, 2)) * np.array([1.0, 3.0])
 
-    def patch(self, x: float, half_length: float) -> SurfacePatch:
+    def stretch(self, x: float, half_length: float) -> RailStretch:
         first = int(np.floor((x - half_length) / STEP))
         nodes_x = STEP * np.arange(first, first + int(np.ceil(2 * half_length / STEP)) + 2)
         nodes_y = STEP * np.arange(6)
         X, _ = np.meshgrid(nodes_x, nodes_y, indexing="ij")
-        return SurfacePatch(
+        return RailStretch(
             key=first // 50,
             dofs=np.arange(N_TRACK),
             map=1 + 0.1 * np.sin(X.reshape(-1, 1) * self.shapes[:, 0] + self.shapes[:, 1]),
@@ -101,18 +101,18 @@ def test_equals_brute_force(scale: float) -> None:
         u_free[-1] -= 80e-6 + 10e-6 * step
         result = contact(step, u_free, state)
         state = result.state
-        # B u, all points, dense; the patch is asked for a wider zone
-        patch = track.patch(X, 0.02)
-        P = rail_matrix(patch.x, patch.y, points.x + X, points.y)
-        B = np.c_[-P @ patch.map, points.normal_z]
+        # B u, all points, dense; the stretch is asked for a wider zone
+        stretch = track.stretch(X, 0.02)
+        P = rail_matrix(stretch.x, stretch.y, points.x + X, points.y)
+        B = np.c_[-P @ stretch.map, points.normal_z]
         W = B @ np.linalg.solve(S, B.T) * scale
-        W += P @ patch.residual @ P.T + Pw @ wheel_F @ Pw.T
+        W += P @ stretch.residual @ P.T + Pw @ wheel_F @ Pw.T
         W += np.diag(1 / (PENALTY * points.area))
         r = np.repeat(roughness[step], len(points.y))
         gap = points.gap + B @ u_free - points.normal_z * r
         L = np.linalg.cholesky(0.5 * (W + W.T))
         forces, _ = nnls(L.T, -np.linalg.solve(L, gap), maxiter=10000)
-        # the spline of another patch differs a little at its ends
+        # the spline of another stretch differs a little at its ends
         total = points.normal_z @ forces
         assert result.record["contact_force"][0] == pytest.approx(total, rel=2e-5)
         np.testing.assert_allclose(result.load, B.T @ forces, atol=1e-4 * total)

@@ -27,8 +27,8 @@ def short_track(support):
 
 
 def flexibility(track, factor, x):
-    """Flexibility of surface nodes and centre line in a patch, last row the centre line."""
-    p = track.patch(x, HALF_LENGTH)
+    """Flexibility of surface nodes and centre line in a stretch, last row the centre line."""
+    p = track.stretch(x, HALF_LENGTH)
     E = np.zeros((track.n_dofs, len(p.map) + 1))
     for column, row in enumerate(p.map):
         np.add.at(E[:, column], p.dofs, row)
@@ -143,9 +143,9 @@ def test_deformed_section_is_that_of_the_full_mesh():
     track, x = short_track(WinklerFoundation(100e6)), 0.598
     full, reduced = UnreducedTrack(track, RECIPE), SolidTrack(track, cell())
     moved = []
-    force = -np.linspace(1.0, 2.0, len(reduced.patch(x, HALF_LENGTH).map))
+    force = -np.linspace(1.0, 2.0, len(reduced.stretch(x, HALF_LENGTH).map))
     for t in (full, reduced):
-        p = t.patch(x, HALF_LENGTH)
+        p = t.stretch(x, HALF_LENGTH)
         load = np.zeros(t.n_dofs)
         np.add.at(load, p.dofs, p.map.T @ force)
         moved.append(Factor(t.stiffness).solve(load))

@@ -46,7 +46,7 @@ def short_track(support, recipe=RECIPE, length=0.8):
 
 def responses(track, x):
     """Surface flexibility, and vertical, lateral and roll motion for unit nodal forces."""
-    p = track.patch(x, HALF_LENGTH)
+    p = track.stretch(x, HALF_LENGTH)
     E = np.zeros((track.n_dofs, len(p.map)))
     for column, row in enumerate(p.map):
         np.add.at(E[:, column], p.dofs, row)
@@ -115,7 +115,7 @@ def test_lateral_bending_and_torsion_are_those_of_beams():
     bending, twist = [], []
     for length in (1.6, 2.4):
         track = SolidTrack(short_track(None, length=length), cell())
-        p = track.patch(0.5 * length, HALF_LENGTH)
+        p = track.stretch(0.5 * length, HALF_LENGTH)
         rows = np.zeros((track.n_dofs, 2))
         for k in (1, 2):
             np.add.at(rows[:, k - 1], p.centre_dofs, p.centre_map[k])

@@ -9,7 +9,7 @@ from contactstudy.geometry.interpolation import Rows, grid_rows, linear_rows
 from contactstudy.geometry.placement import Geometry
 from contactstudy.geometry.quadrature import PointLine, grid_facets
 from contactstudy.solids.wheel import WheelFlexibility
-from contactstudy.track.patch import SurfacePatch
+from contactstudy.track.stretch import RailStretch
 
 
 @dataclass(frozen=True)
@@ -45,7 +45,7 @@ class FlatPoints:
 
 
 def flat_points(
-    patch: SurfacePatch, wheel: WheelFlexibility, x: float, order: int, geometry: Geometry
+    rail: RailStretch, wheel: WheelFlexibility, x: float, order: int, geometry: Geometry
 ) -> FlatPoints:
     """Points of a wheel on a rail at X = x [m].
 
@@ -53,8 +53,8 @@ def flat_points(
     between the nodes of its section. Faces of both bodies meet at their ridges, where the pressure
     is not smooth, so the rule is taken between the lines of both.
     """
-    corner = geometry.rail.point(patch.arc)
-    across = gauss_line(wheel.y, order, _lines_opposite(geometry, wheel.y, patch.arc))
+    corner = geometry.rail.point(rail.arc)
+    across = gauss_line(wheel.y, order, _lines_opposite(geometry, wheel.y, rail.arc))
     along = gauss_line(wheel.x, order)
     on_wheel = _on_wheel(along.rows, across.rows, wheel)
     nodes = _tread(wheel, geometry)
@@ -74,7 +74,7 @@ def flat_points(
     n = np.arange(len(at))
     t = np.clip(share[n, strip], 0.0, 1.0)
     lines = Rows(np.stack([strip, strip + 1], axis=1), np.stack([1.0 - t, t], axis=1))
-    slices = linear_rows(patch.x - x, at[:, 0])
+    slices = linear_rows(rail.x - x, at[:, 0])
     normal, both = geometry.pose.track_of_rail(outward[strip]), 1.0
     if wheel.recipe.symmetric:
         normal, both = normal * [0.0, 1.0], 2.0
@@ -85,7 +85,7 @@ def flat_points(
         gap=np.einsum("nc,nc->n", away[n, strip], outward[strip]),
         normal=normal,
         area=both * np.outer(along.weight, across.weight).ravel() * stretch,
-        on_rail=on_rail.matrix(len(patch.x) * len(corner)),
+        on_rail=on_rail.matrix(len(rail.x) * len(corner)),
         on_wheel=on_wheel,
         face=grid_facets(along, across, len(wheel.y)).ravel(),
     )

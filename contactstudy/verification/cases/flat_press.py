@@ -67,12 +67,12 @@ def flat_press(
     geometry : Geometry, optional
         The recipe's profiles, centred and upright, when not given.
     """
-    patch = track.patch(x, 1.05 * float(wheel.x[-1]) + 2 * track.thickness)
+    rail = track.stretch(x, 1.05 * float(wheel.x[-1]) + 2 * track.thickness)
     factor = Factor(track.stiffness)
-    unit = np.zeros((factor.n, len(patch.dofs)))
-    unit[patch.dofs, np.arange(len(patch.dofs))] = 1.0
-    rail_flexibility = patch.map @ factor.solve(unit)[patch.dofs] @ patch.map.T + patch.residual
-    points = flat_points(patch, wheel, x, order, geometry or Geometry.of(wheel.recipe))
+    unit = np.zeros((factor.n, len(rail.dofs)))
+    unit[rail.dofs, np.arange(len(rail.dofs))] = 1.0
+    rail_flexibility = rail.map @ factor.solve(unit)[rail.dofs] @ rail.map.T + rail.residual
+    points = flat_points(rail, wheel, x, order, geometry or Geometry.of(wheel.recipe))
     M = points.on_rail @ rail_flexibility @ points.on_rail.T
     M += points.on_wheel @ wheel.flexibility @ points.on_wheel.T
     M = 0.5 * (M + M.T) + np.diag(1.0 / (penalty * points.area))

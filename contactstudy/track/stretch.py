@@ -8,7 +8,7 @@ from contactstudy.arrays import Array, IntArray
 
 
 @dataclass(frozen=True)
-class SurfacePatch:
+class RailStretch:
     """Running-surface nodes around a position, with their part in the track.
 
     Node ``ix*len(y) + iy`` lies at ``(x[ix], y[iy])``. Its displacement along the smooth
@@ -93,7 +93,7 @@ class SectionResponse:
     map : ndarray (k, 2, m)
         Displacement (y, z) of each node.
     residual : ndarray (k, 2, nodes)
-        What nodal forces of the `SurfacePatch` at the same place add [m/N].
+        What nodal forces of the `RailStretch` at the same place add [m/N].
     """
 
     position: float
