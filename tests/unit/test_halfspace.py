@@ -3,7 +3,7 @@ import pytest
 
 from contactstudy.exceptions import InputError
 from contactstudy.verification.cases.graded import graded_lines
-from contactstudy.verification.cases.halfspace_block import half_space_patch
+from contactstudy.verification.cases.halfspace_block import HalfSpaceBlock
 from contactstudy.verification.cases.point_loads import boussinesq
 
 
@@ -37,7 +37,7 @@ def test_boussinesq_is_in_equilibrium() -> None:
 
 def test_far_surface_nodes_move_as_the_closed_form() -> None:
     lines = graded_lines(12e-3, 2e-3, 60e-3)
-    patch = half_space_patch(lines, lines, lines, (slice(0, 7), slice(0, 7)))
+    patch = HalfSpaceBlock(lines, lines, lines).patch((slice(0, 7), slice(0, 7)))
     u = patch.flexibility[0].reshape(7, 7)
     X, Y = np.meshgrid(patch.x, patch.y, indexing="ij")
     far = np.hypot(X, Y) > 7e-3
@@ -52,10 +52,9 @@ def test_symmetry_gives_the_same_as_the_whole() -> None:
     lines = graded_lines(4e-3, 4e-3, 40e-3, growth=1.6)
     half = np.concatenate([-lines[:0:-1], lines])
     c = len(lines) - 1
-    quarter = half_space_patch(lines, lines, lines, (slice(0, 3), slice(0, 3)))
-    whole = half_space_patch(
-        half, half, lines, (slice(c - 2, c + 3), slice(c - 2, c + 3)), symmetric=(False, False)
-    )
+    quarter = HalfSpaceBlock(lines, lines, lines).patch((slice(0, 3), slice(0, 3)))
+    block = HalfSpaceBlock(half, half, lines, symmetric=(False, False))
+    whole = block.patch((slice(c - 2, c + 3), slice(c - 2, c + 3)))
     F = whole.flexibility.reshape(5, 5, 5, 5)
     # unit total force shared by the four images, seen in the quarter x, y >= 0
     images = 0.25 * (F + F[:, :, ::-1] + F[:, :, :, ::-1] + F[:, :, ::-1, ::-1])[2:, 2:, 2:, 2:]

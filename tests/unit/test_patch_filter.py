@@ -8,6 +8,7 @@ from contactstudy.exceptions import InputError
 from contactstudy.halfspace.hertz import contact_modulus, hertz_contact
 from contactstudy.halfspace.love import influence_matrix
 from contactstudy.verification.cases.wave_filter import (
+    PatchPoints,
     ellipse_filter,
     load_weights,
     pressed_filter,
@@ -58,14 +59,14 @@ def test_small_amplitudes_are_the_limit_of_presses() -> None:
     weights = load_weights(M, normal, press(M, gap, normal, LOAD))
     for wavelength in (0.02, 0.05):
         exact = small_amplitude_filter(weights, x, np.array([wavelength]))[0]
-        tiny = pressed_filter(M, gap, normal, x, LOAD, wavelength, 1e-9, 6)
+        tiny = pressed_filter(PatchPoints(M, gap, normal, x), LOAD, wavelength, 1e-9, 6)
         # the same points stay in contact: equal to the rounding of approach/amplitude
         assert tiny == pytest.approx(exact, abs=1e-4)
 
 
 def test_uniform_lift_is_followed_wholly() -> None:
     M, gap, normal, x = half_spaces()
-    found = pressed_filter(M, gap, normal, x, LOAD, 1e3, 1e-6, 4)
+    found = pressed_filter(PatchPoints(M, gap, normal, x), LOAD, 1e3, 1e-6, 4)
     assert found == pytest.approx(1.0, abs=1e-6)
 
 

@@ -11,7 +11,7 @@ from contactstudy.profiles.named import rail_curve, wheel_curve
 from contactstudy.profiles.scanned_rail import fit_rail_head
 from contactstudy.profiles.scanned_wheel import fit_wheel_tread
 from contactstudy.scans import read_scan
-from contactstudy.verification.cases.scanned_profiles import synthetic_scan
+from contactstudy.verification.cases.scanned_profiles import Standing, synthetic_scan
 
 RAIL, S1002 = rail_curve("60E1"), wheel_curve("S1002")
 
@@ -66,7 +66,7 @@ def test_curve_without_noise_in_single_precision():
 )
 def test_a_rail_in_any_position(yaw, pitch, shift, seed):
     at = (10 * shift, 0.3 * shift, shift)
-    mesh = synthetic_scan(RAIL, 0.04, seed, step=2e-3, yaw=yaw, pitch=pitch, at=at)
+    mesh = synthetic_scan(RAIL, 0.04, seed, step=2e-3, standing=Standing(yaw, pitch, at))
     fit = fit_rail_head(mesh.vertices, mesh.vertex_normals, middle=at[1])
     # 2 um over some 0.02 m and thousands of points
     assert fit.angles["yaw"] == pytest.approx(yaw, abs=1e-5)
@@ -87,7 +87,7 @@ def test_a_rail_in_any_position(yaw, pitch, shift, seed):
 @pytest.mark.parametrize(("radius", "yaw", "half"), [(0.46, 4e-3, 0.06), (0.43, -0.01, 0.1)])
 def test_a_wheel_in_any_position(radius, yaw, half):
     at = (0.3, -0.02, 0.1)
-    mesh = synthetic_scan(S1002, half, 3, step=2e-3, radius=radius, yaw=yaw, at=at)
+    mesh = synthetic_scan(S1002, half, 3, 2e-3, radius, Standing(yaw, at=at))
     fit = fit_wheel_tread(mesh.vertices, mesh.vertex_normals, tape=at[1])
     assert fit.radius_error < 5e-5
     assert abs(fit.radius - radius) < 4 * fit.radius_error

@@ -23,7 +23,7 @@ from contactstudy.geometry.points import ContactPoints, contact_points
 from contactstudy.profiles.named import rail_curve, wheel_curve
 from contactstudy.verification.cases.contact_ellipse import contact_ellipse
 from contactstudy.verification.cases.graded import graded_lines
-from contactstudy.verification.cases.halfspace_block import half_space_patch
+from contactstudy.verification.cases.halfspace_block import HalfSpaceBlock
 
 BODIES = Geometry(rail_curve(), wheel_curve("cylinder"), 0.43)
 LOADS = np.array([50e3, 60e3, 80e3, 100e3])
@@ -54,7 +54,7 @@ def block(size: float) -> tuple[ContactPoints, np.ndarray]:
     y = graded_lines(width + MARGIN * size, size, 60e-3)
     z = graded_lines(4e-3, size, 60e-3)
     nx, ny = round(length / size) + MARGIN + 1, round(width / size) + MARGIN + 1
-    patch = half_space_patch(x, y, z, (slice(0, nx), slice(0, ny)))
+    patch = HalfSpaceBlock(x, y, z).patch((slice(0, nx), slice(0, ny)))
     full = np.concatenate([-patch.x[:0:-1], patch.x])
     points = contact_points(BODIES, patch.x[:-MARGIN], patch.y[:-MARGIN], symmetric=True)
     assert len(full) == 2 * nx - 1

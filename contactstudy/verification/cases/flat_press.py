@@ -17,6 +17,9 @@ from contactstudy.solids.wheel import WheelFlexibility
 from contactstudy.track.meshed import MeshedTrack
 from contactstudy.verification.cases.flat_points import flat_points
 
+ORDER = 5
+"""Gauss points along each side of a face, or of what the other body's lines cut from it."""
+
 
 @dataclass(frozen=True)
 class FacetPress:
@@ -46,7 +49,6 @@ def flat_press(
     load: float,
     penalty: float,
     x: float,
-    order: int = 5,
     geometry: Geometry | None = None,
 ) -> FacetPress:
     """Press the faces of a wheel on those of a rail.
@@ -62,8 +64,6 @@ def flat_press(
         In Pa/m.
     x : float
         Position of the wheel on the track in m.
-    order : int
-        Gauss points along each side of a face, or of what the other body's lines cut from it.
     geometry : Geometry, optional
         The recipe's profiles, centred and upright, when not given.
     """
@@ -72,7 +72,7 @@ def flat_press(
     unit = np.zeros((factor.n, len(rail.dofs)))
     unit[rail.dofs, np.arange(len(rail.dofs))] = 1.0
     rail_flexibility = rail.map @ factor.solve(unit)[rail.dofs] @ rail.map.T + rail.residual
-    points = flat_points(rail, wheel, x, order, geometry or Geometry.of(wheel.recipe))
+    points = flat_points(rail, wheel, x, ORDER, geometry or Geometry.of(wheel.recipe))
     M = points.on_rail @ rail_flexibility @ points.on_rail.T
     M += points.on_wheel @ wheel.flexibility @ points.on_wheel.T
     M = 0.5 * (M + M.T) + np.diag(1.0 / (penalty * points.area))

@@ -188,29 +188,3 @@ class HalfSpaceBlock:
             (xx, yy, zz, yz, zx, xy) in Pa in the axes (x, y, depth).
         """
         return slab_stress(self.nodes, displacement, *self._constants)
-
-
-def half_space_patch(
-    x_lines: Array,
-    y_lines: Array,
-    depth_lines: Array,
-    loaded: tuple[slice, slice],
-    youngs_modulus: float = 210e9,
-    poisson_ratio: float = 0.3,
-    symmetric: tuple[bool, bool] = (True, True),
-) -> HalfSpacePatch:
-    """Flexibility of the surface nodes of a half-space modelled by a finite block.
-
-    Parameters
-    ----------
-    x_lines, y_lines, depth_lines, youngs_modulus, poisson_ratio, symmetric
-        As of `HalfSpaceBlock`.
-    loaded : tuple of slice
-        Lines in x and y that make the grid of loaded surface nodes; not on an outer face.
-
-    Returns
-    -------
-    HalfSpacePatch
-    """
-    block = HalfSpaceBlock(x_lines, y_lines, depth_lines, youngs_modulus, poisson_ratio, symmetric)
-    return block.patch(loaded)

@@ -15,6 +15,7 @@ from contactstudy.study.kinds.passage.runs import SurfaceRun
 from contactstudy.study.kinds.passage.schema import Study
 from contactstudy.study.kinds.passage.solid import Solid
 from contactstudy.verification.cases.wave_filter import (
+    PatchPoints,
     ellipse_filter,
     load_weights,
     pressed_filter,
@@ -81,11 +82,12 @@ def patch_filter() -> CaseResult:
     a = hertz_contact(LOAD, contact_modulus(), *RADII).semi_axis_x
     M, gap, x = half_spaces()
     normal = np.ones(len(gap))
+    points = PatchPoints(M, gap, normal, x)
     weights = load_weights(M, normal, press(M, gap, normal, LOAD))
     bodies = real_bodies()
 
     def pressed(wavelength: float) -> float:
-        return pressed_filter(M, gap, normal, x, LOAD, wavelength, AMPLITUDE, POSITIONS)
+        return pressed_filter(points, LOAD, wavelength, AMPLITUDE, POSITIONS)
 
     exact, love = ellipse_filter(a, WAVELENGTHS), small_amplitude_filter(weights, x, WAVELENGTHS)
     ours = small_amplitude_filter(*bodies, WAVELENGTHS)

@@ -16,7 +16,7 @@ from contactstudy.geometry.points import ContactPoints
 from contactstudy.geometry.quadrature import Quadrature, grid_facets, point_line
 from contactstudy.verification.cases.contact_ellipse import ContactEllipse, contact_ellipse
 from contactstudy.verification.cases.graded import graded_lines
-from contactstudy.verification.cases.halfspace_block import half_space_patch
+from contactstudy.verification.cases.halfspace_block import HalfSpaceBlock
 
 MARGIN = 2
 """Surface lines beyond the contact points, for the spline of the lower body."""
@@ -151,9 +151,8 @@ def blocks(
     h = min(semi_axes) / elements
     depth = graded_lines(0.75 * min(semi_axes), h, outer, GROWTH)
     loaded = slice(0, n + MARGIN + 1)
-    patch = half_space_patch(
-        lines[0], lines[1], depth, (loaded, loaded), youngs_modulus, poisson_ratio
-    )
+    block = HalfSpaceBlock(lines[0], lines[1], depth, youngs_modulus, poisson_ratio)
+    patch = block.patch((loaded, loaded))
     points = _points(patch.x[: n + 1], patch.y[: n + 1], radii, quadrature)
     size = len(patch.x) * len(patch.y)
     # lower body: spline through its surface nodes, mirrored in both planes; as in the program

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import tempfile
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -25,6 +26,7 @@ from contactstudy.verification.check import CaseResult, Check, ResultTable
 
 RADIUS = 0.46
 NOISE = 2e-6
+"""Standard deviation of every coordinate [m]."""
 STEP = 1e-3
 LOAD = 67.4e3
 POSES = {
@@ -36,16 +38,33 @@ _EDGE = 2e-3  # from the ends of a fitted curve, left out of the comparison of s
 _CURVATURE_OVER = 3e-3  # length over which curvatures are averaged [m]
 
 
+@dataclass(frozen=True)
+class Standing:
+    """How a body stands in its scan.
+
+    Attributes
+    ----------
+    yaw, pitch : float
+        Turn about Z, and upwards of the direction X [rad].
+    at : tuple of float
+        Where the origin of the profile is [m].
+    """
+
+    yaw: float = 0.0
+    pitch: float = 0.0
+    at: tuple[float, float, float] = (0.0, 0.0, 0.0)
+
+
+ALIGNED = Standing()
+
+
 def synthetic_scan(
     profile: ProfileCurve,
     half_length: float,
     seed: int = 1,
     step: float = STEP,
-    noise: float = NOISE,
     radius: float = RADIUS,
-    yaw: float = 0.0,
-    pitch: float = 0.0,
-    at: tuple[float, float, float] = (0.0, 0.0, 0.0),
+    standing: Standing = ALIGNED,
 ) -> trimesh.Trimesh:
     """Irregularly triangulated surface of a profile with noise, misaligned, in any order.
 
@@ -58,14 +77,9 @@ def synthetic_scan(
     seed : int
     step : float
         Mean distance of the vertices [m].
-    noise : float
-        Standard deviation of every coordinate [m].
     radius : float
         Of a wheel [m].
-    yaw, pitch : float
-        Turn about Z, and upwards of the direction X [rad].
-    at : tuple of float
-        Where the origin of the profile is in the scan [m].
+    standing : Standing
 
     Returns
     -------
@@ -83,9 +97,9 @@ def synthetic_scan(
     body = rail_surface(profile, grid[0], s)
     if not profile.upper:
         body = wheel_surface(profile, radius, grid[0], s)
-    turn = trimesh.transformations.euler_matrix(0.0, -pitch, yaw, "sxyz")
-    vertices = body.vertices @ turn[:3, :3].T + np.asarray(at)
-    vertices = vertices + noise * rng.standard_normal(vertices.shape)
+    turn = trimesh.transformations.euler_matrix(0.0, -standing.pitch, standing.yaw, "sxyz")
+    vertices = body.vertices @ turn[:3, :3].T + np.asarray(standing.at)
+    vertices = vertices + NOISE * rng.standard_normal(vertices.shape)
     return trimesh.Trimesh(vertices, rng.permutation(body.faces), process=False)
 
 
@@ -169,7 +183,8 @@ def _scans(exact: dict[str, ProfileCurve]) -> dict[str, Scan]:
         for seed, (body, profile) in enumerate(exact.items()):
             at = (0.02, 4e-3, 0.03)
             pitch = 1.5e-3 if body == "rail" else 0.0
-            mesh = synthetic_scan(profile, _HALF_LENGTHS[body], seed, yaw=3e-3, pitch=pitch, at=at)
+            standing = Standing(3e-3, pitch, at)
+            mesh = synthetic_scan(profile, _HALF_LENGTHS[body], seed, standing=standing)
             mesh.apply_scale(1e3)
             path = Path(folder) / f"{profile.name}.stl"
             mesh.export(path)

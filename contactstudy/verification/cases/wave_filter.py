@@ -23,6 +23,8 @@ wherever -a < x < a: the wheel takes the plain mean over the length of the patch
     H(k) = | sin(k a) / (k a) |
 """
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from contactstudy.arrays import Array
@@ -89,24 +91,32 @@ def small_amplitude_filter(weights: Array, x: Array, wavelengths: Array) -> Arra
     return np.asarray(np.abs(np.exp(1j * k[:, None] * x) @ weights))
 
 
+@dataclass(frozen=True)
+class PatchPoints:
+    """Contact points under a wheel.
+
+    Attributes
+    ----------
+    M, gap, normal : ndarray (n, n), (n,), (n,)
+        As in `contact.complementarity.press`.
+    x : ndarray (n,)
+        Positions along the rail in m.
+    """
+
+    M: Array
+    gap: Array
+    normal: Array
+    x: Array
+
+
 def pressed_filter(
-    M: Array,
-    gap: Array,
-    normal: Array,
-    x: Array,
-    load: float,
-    wavelength: float,
-    amplitude: float,
-    positions: int = 12,
+    points: PatchPoints, load: float, wavelength: float, amplitude: float, positions: int = 12
 ) -> float:
     """Filter for an irregularity of any amplitude, from static presses along one wavelength.
 
     Parameters
     ----------
-    M, gap, normal : ndarray (n, n), (n,), (n,)
-        As in `contact.surface.press`.
-    x : ndarray (n,)
-        Positions of the points along the rail in m.
+    points : PatchPoints
     load : float
         In N.
     wavelength, amplitude : float
@@ -122,11 +132,11 @@ def pressed_filter(
     phases = 2 * np.pi * np.arange(positions) / positions
     approach, last = np.empty(positions), None
     for i, phase in enumerate(phases):
-        r = amplitude * np.cos(2 * np.pi * x / wavelength + phase)
+        r = amplitude * np.cos(2 * np.pi * points.x / wavelength + phase)
         last = press(
-            M,
-            gap - normal * r,
-            normal,
+            points.M,
+            points.gap - points.normal * r,
+            points.normal,
             load,
             None if last is None else last.active,
             None if last is None else last.approach,
