@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 from numbers import Real
@@ -170,19 +169,4 @@ class Limits:
             if limit is not None
         ]
         kind = "a whole number " if self.whole else ("" if limits else "a number ")
-        return f"{kind}{' and '.join(limits)} {self.unit}".strip()
-
-
-def one_of_or(names: tuple[str, ...], limits: Limits) -> Callable[[Any], float | str]:
-    """Validator for one of some names, or else a quantity within `limits`."""
-
-    def validate(value: Any) -> float | str:
-        if isinstance(value, str) and value in names:
-            return value
-        try:
-            return limits(value)
-        except UnitError as error:
-            quoted = " or ".join(f'"{name}"' for name in names)
-            raise UnitError(f"{error}, or {quoted}") from error
-
-    return validate
+        return f"{kind}{' and '.join(limits)} {self.unit}".replace("  ", " ").strip()

@@ -26,7 +26,7 @@ import numpy as np
 from contactstudy.arrays import Array, BoolArray
 from contactstudy.contact.complementarity import PatchForces, PressedForces, contact_forces, press
 from contactstudy.exceptions import NumericalError
-from contactstudy.validation import Above, Parameters, Same, Unit
+from contactstudy.validation import Above, AtMost, Parameters, Same, Unit
 
 Solution = TypeVar("Solution", bound=PatchForces)
 
@@ -139,7 +139,7 @@ class AugmentedLagrangian(Parameters):
     """
 
     tolerance: Annotated[
-        float, Unit("m"), Above(0), "penetration that the augmented Lagrangian leaves"
+        float, Unit("m"), Above(0), AtMost(1e-5), "penetration that the augmented Lagrangian leaves"
     ] = 1e-9
     penalty: Annotated[float, Same(Penalty, "penalty")] = Penalty.penalty
     max_updates: int = 50

@@ -89,7 +89,7 @@ class Parameters:
             if not p.applies(self) and self.given(p.name):
                 when = next(w for w in p.when if getattr(self, w.decider) not in w.values)
                 here = getattr(self, when.decider)
-                problems.append(only_with(key(p.name), when.decider, when.values, here))
+                problems.append(only_with(key(p.name), when.key, when.values, here))
         return problems
 
 
@@ -148,8 +148,13 @@ def _wrong_variant(p: Parameter, value: Any, key: Naming) -> list[str]:
     classes = list(p.variants.classes.values())
     if None in classes if value is None else isinstance(value, tuple(c for c in classes if c)):
         return []
+    return [wrong_type(key(p.name), value, classes)]
+
+
+def wrong_type(key: str, value: object, classes: Iterable[type | None]) -> str:
+    """Complaint about an object that is of none of the classes; None stands for None itself."""
     allowed = " or ".join("None" if made is None else made.__name__ for made in classes)
-    return [complaint(key(p.name), repr(value), f"must be of type {allowed}")]
+    return f"{key}: is a {type(value).__name__}; must be of type {allowed}"
 
 
 def plain(value: Any) -> Any:

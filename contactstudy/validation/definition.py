@@ -76,7 +76,8 @@ class Parameter:
     @cached_property
     def only_text(self) -> bool:
         """Whether nothing but text is allowed."""
-        return all(p is str or get_origin(p) is Literal for p in self._parts)
+        parts = [p for p in self._parts if p is not NoneType]
+        return all(p is str or get_origin(p) is Literal for p in parts)
 
     def applies(self, owner: Any) -> bool:
         """Whether the parameter means anything with the owner's other values."""

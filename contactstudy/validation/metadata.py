@@ -63,14 +63,25 @@ class Same:
 
 @dataclass(frozen=True, init=False)
 class When:
-    """The parameter means something only with these values of a field of the same class."""
+    """The parameter means something only with these values of a field of the same class.
+
+    Attributes
+    ----------
+    decider : str
+        Field or property.
+    values : tuple of str
+    key : str
+        Key of a study file that decides, where `decider` is a property.
+    """
 
     decider: str
     values: tuple[str, ...]
+    key: str
 
-    def __init__(self, decider: str, *values: str) -> None:
+    def __init__(self, decider: str, *values: str, key: str = "") -> None:
         object.__setattr__(self, "decider", decider)
         object.__setattr__(self, "values", values)
+        object.__setattr__(self, "key", key or decider)
 
 
 @dataclass(frozen=True)

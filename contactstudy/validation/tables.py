@@ -46,7 +46,7 @@ def entries(table: Table) -> dict[str, Entry]:
         return _of_variants(table)
     own = parameters(table)
     found = {
-        p.key: Entry(p, tuple((_key_of(own, w.decider), w.values) for w in p.when))
+        p.key: Entry(p, tuple((_key_of(own, w.key), w.values) for w in p.when))
         for p in own
         if p.key and p.variants is None
     }

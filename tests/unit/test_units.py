@@ -1,9 +1,13 @@
 """Text with units against factors known by hand."""
 
+from dataclasses import dataclass
+from typing import Annotated, Literal
+
 import pytest
 
-from contactstudy import units
-from contactstudy.units import Limits, UnitError, one_of_or, to_si
+from contactstudy.exceptions import InputError
+from contactstudy.units import Limits, UnitError, to_si
+from contactstudy.validation import Above, Parameters, Unit
 
 
 @pytest.mark.parametrize(
@@ -67,38 +71,12 @@ def test_limits_say_what_is_allowed():
     assert Limits(at_least=1, whole=True)(4) == 4
 
 
+@dataclass(frozen=True)
+class Spring(Parameters):
+    k_r: Annotated[float | Literal["tangent", "rigid"], Unit("N/m"), Above(0)]
+
+
 def test_names_beside_a_quantity():
-    read = one_of_or(("tangent", "rigid"), Limits("N/m", above=0))
-    assert read("tangent") == "tangent" and read("1 GN/m") == 1e9
-    with pytest.raises(UnitError, match='or "tangent" or "rigid"'):
-        read("tangental")
-
-
-UNITS = [
-    "kN*s/m",
-    "kN s/m",
-    "N/m s",
-    "km/h",
-    "g / cm ^ 3",
-    "m**2",
-    "MN/mm",
-    "µs",
-    "t/m",
-    "kHz",
-    "1/m",
-]
-
-
-@pytest.mark.parametrize(
-    "text", [*UNITS, "1/m", "rad/mm", "min", "mrad", "kN·s/m", "N/m/s", "m^-1"]
-)
-def test_units_known_without_pint_agree_with_pint(text):
-    top, bottom, dimension = units._known(text)
-    found = units._registry().Quantity(1.0, text.replace("·", "*")).to_base_units()
-    exponents = [found.dimensionality.get(d, 0) for d in ("[length]", "[mass]", "[time]")]
-    assert top / bottom == pytest.approx(found.magnitude, rel=1e-14)
-    assert list(dimension) == exponents
-
-
-def test_other_units_are_pints_business():
-    assert all(units._known(text) is None for text in ("lbf/inch", "(N/m)", "m^0.5", "deg", ""))
+    assert Spring("tangent").k_r == "tangent" and Spring("1 GN/m").k_r == 1e9
+    with pytest.raises(InputError, match='or "tangent" or "rigid"'):
+        Spring("tangental")

@@ -8,6 +8,7 @@ from typing import Annotated, Any, ClassVar, Literal
 from contactstudy.dynamics import integrators
 from contactstudy.solvers.journey import Journey
 from contactstudy.study.kinds.passage.solid import WheelModel
+from contactstudy.track.beam import BeamTrack
 from contactstudy.track.model import Direction
 from contactstudy.validation import (
     Above,
@@ -38,7 +39,7 @@ class Run(Parameters):
         "time stepper; the one that suits the run if left out",
     ] = None
     rho_inf: Annotated[
-        float, AtLeast(0), AtMost(1), When("stepper", "generalised_alpha"),
+        float, AtLeast(0), AtMost(1), When("stepper", "generalised_alpha", key="integrator"),
         "spectral radius at infinite frequency",
     ] = 0.8  # fmt: skip
 
@@ -76,16 +77,18 @@ class PointRun(Run):
     rail: Annotated[
         Literal["euler", "timoshenko", "solid"], "theory of the beam, or the meshed rail"
     ] = "euler"
-    elements_per_bay: Annotated[int, AtLeast(1), _BEAM, "beam elements between supports"] = 4
-    local_compliance: Annotated[
-        bool, _BEAM, "whether the loaded element's own compliance counts"
-    ] = False
+    elements_per_bay: Annotated[int, Same(BeamTrack, "elements_per_bay"), _BEAM] = (
+        BeamTrack.elements_per_bay
+    )
+    local_compliance: Annotated[bool, Same(BeamTrack, "element_compliance"), _BEAM] = (
+        BeamTrack.element_compliance
+    )
     law: Annotated[Literal["linear", "hertz"], "contact law"] = "linear"
     k_r: Annotated[
         float | Literal["tangent", "hertz_tangent", "rigid"], Unit("N/m"), Above(0),
         When("law", "linear"), "contact stiffness",
     ] = 1e11  # fmt: skip
-    direction: Annotated[Direction, "vertical or lateral"] = "Z"
+    direction: Annotated[Direction, Same(BeamTrack, "direction")] = BeamTrack.direction
 
     @property
     def needs_solid(self) -> bool:

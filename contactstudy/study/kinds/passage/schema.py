@@ -23,6 +23,7 @@ from contactstudy.validation import (
     resolved,
     units,
 )
+from contactstudy.validation.base import wrong_type
 from contactstudy.vehicle import VEHICLES, BareWheel, WheelColumn
 
 SECTIONS: dict[str, Table] = {
@@ -157,8 +158,7 @@ def wrong_types(tables: dict[str, Any]) -> list[str]:
         table = SECTIONS[key]
         classes = tuple(table.classes.values()) if isinstance(table, Variants) else (table,)
         if not isinstance(value, classes):
-            names = " or ".join(made.__name__ for made in classes)
-            problems.append(complaint(key, repr(value), f"must be of type {names}"))
+            problems.append(wrong_type(key, value, classes))
     return problems
 
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Annotated, Literal
 
+from contactstudy.contact.augmented import AugmentedLagrangian, Penalty
+from contactstudy.contact.surface_contact import SurfaceContact
 from contactstudy.geometry.quadrature import Quadrature
 from contactstudy.solids.recipe import CellRecipe
 from contactstudy.solids.wheel_recipe import WheelRecipe
@@ -36,7 +38,7 @@ class Solid(Parameters):
     of any profile, see ``[wheelset]``; other defaults then hold.
 
     The modes of a modal wheel go up to ``wheel_frequency``; their damping ratio is an assumption,
-    see `contactstudy.solvers.surface.WHEEL_DAMPING`. A run may have another ``wheel``.
+    see `contactstudy.contact.surface_contact`. A run may have another ``wheel``.
     """
 
     section: Annotated[
@@ -55,17 +57,14 @@ class Solid(Parameters):
     contact_half_width: Annotated[
         float, Same(WheelRecipe, "contact_half_width"), By("section", half=0.008, whole=0.012)
     ] = by()
-    contact_points: Annotated[
-        Quadrature, "where contact is enforced: Gauss points of the wheel's facets, or nodes"
-    ] = "gauss"
-    penalty: Annotated[float, Unit("Pa/m"), Above(0), "pressure per penetration"] = 1e16
+    contact_points: Annotated[Quadrature, Same(SurfaceContact, "quadrature")] = "gauss"
+    penalty: Annotated[float, Same(Penalty, "penalty")] = Penalty.penalty
     enforcement: Annotated[
         Literal["penalty", "augmented"], "penalty alone, or augmented Lagrangian"
     ] = "penalty"
     penetration_tolerance: Annotated[
-        float, Unit("m"), Above(0), AtMost(1e-5), When("enforcement", "augmented"),
-        "penetration that the augmented Lagrangian leaves",
-    ] = 1e-9  # fmt: skip
+        float, Same(AugmentedLagrangian, "tolerance"), When("enforcement", "augmented")
+    ] = AugmentedLagrangian.tolerance
     wheel: Annotated[WheelModel, "model of the meshed wheel"] = "quasi-static"
     wheel_section: Annotated[
         str, File(True), "shipped wheel, or a TOML file with its dimensions"
@@ -73,7 +72,9 @@ class Solid(Parameters):
     wheel_frequency: Annotated[
         float, Unit("Hz"), Above(0), AtMost(2e4), "highest mode of a modal wheel"
     ] = 5000.0
-    wheel_damping: Annotated[float, AtLeast(0), AtMost(1), "damping ratio of its modes"] = 1e-3
+    wheel_damping: Annotated[float, Same(SurfaceContact, "wheel_damping")] = (
+        SurfaceContact.wheel_damping
+    )
     pressure_at: Annotated[
         tuple[float, ...], Unit("m"), "where the wheel is when pressure fields are kept"
     ] = ()
