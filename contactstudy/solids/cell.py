@@ -11,6 +11,7 @@ from contactstudy.profiles.rail import rail_profile
 from contactstudy.solids.chain import BlockTridiagonal, Slice, chain_blocks
 from contactstudy.solids.extrusion import ExtrudedSlice, extrude
 from contactstudy.solids.interface import interface_basis
+from contactstudy.solids.mapped import Grading
 from contactstudy.solids.recipe import CellRecipe
 from contactstudy.solids.section_mesh import SectionMesh, rail_section_mesh
 from contactstudy.solids.section_rows import SectionRows, section_rows
@@ -66,15 +67,18 @@ class RailCell:
     section_residual: Array
 
 
+GROWTH = 1.5
+"""Ratio of neighbouring element sizes away from the running surface."""
+
+
 def section_mesh_of(recipe: CellRecipe) -> SectionMesh:
     """Section mesh of a recipe."""
     return rail_section_mesh(
         rail_profile(recipe.profile),
-        recipe.size,
-        recipe.symmetric,
+        Grading(recipe.size, recipe.coarse, GROWTH),
+        recipe.contact_centre,
         recipe.contact_half_width,
-        coarse=recipe.coarse,
-        contact_centre=recipe.contact_centre,
+        recipe.symmetric,
     )
 
 

@@ -1,5 +1,7 @@
 """Mapped blocks of quadrilaterals: graded edges, Coons patches, joined numbering."""
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from contactstudy.arrays import Array, IntArray
@@ -16,6 +18,30 @@ def graded(length: float, first: float, growth: float, largest: float) -> Array:
         steps.append(min(steps[-1] * growth, largest))
     positions = np.r_[0.0, np.cumsum(steps)]
     return np.asarray(positions * (length / positions[-1]))
+
+
+@dataclass(frozen=True)
+class Grading:
+    """Element sizes of a section, fine on the surface in contact.
+
+    Parameters
+    ----------
+    size : float
+        In the fine part, along the surface and in depth [m].
+    coarse : float
+        Largest far away [m].
+    growth : float
+        Ratio of neighbouring sizes.
+    """
+
+    size: float
+    coarse: float
+    growth: float
+
+    def steps(self, length: float, first: float | None = None) -> Array:
+        """Positions 0..length that grow from `first`, by default one step above the fine part."""
+        first = self.size * self.growth if first is None else first
+        return graded(length, first, self.growth, self.coarse)
 
 
 def along(polyline: Array, fractions: Array) -> Array:

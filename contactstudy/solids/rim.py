@@ -8,28 +8,9 @@ from contactstudy.arrays import Array
 from contactstudy.exceptions import InputError
 from contactstudy.profiles.curve import ProfileCurve
 from contactstudy.profiles.wheel_body import WheelDimensions
-from contactstudy.solids.mapped import graded
+from contactstudy.solids.mapped import Grading
 
 _LEAST_WEB_COLUMNS = 3
-
-
-@dataclass(frozen=True)
-class Sizes:
-    """Element sizes in m.
-
-    Parameters
-    ----------
-    size : float
-        In the fine part, along the profile and in depth.
-    coarse : float
-        Far away.
-    growth : float
-        Ratio of neighbouring sizes.
-    """
-
-    size: float
-    coarse: float = 0.012
-    growth: float = 1.6
 
 
 @dataclass(frozen=True)
@@ -58,7 +39,7 @@ class Rim:
     web: tuple[int, int]
 
 
-def half_rim(d: WheelDimensions, curve: ProfileCurve, fine: Array, sizes: Sizes) -> Rim:
+def half_rim(d: WheelDimensions, curve: ProfileCurve, fine: Array, grading: Grading) -> Rim:
     """Columns of the half y >= 0 of a rim that is symmetric about the tape circle.
 
     The columns of the web stand straight where the fine part ends within it.
@@ -70,7 +51,7 @@ def half_rim(d: WheelDimensions, curve: ProfileCurve, fine: Array, sizes: Sizes)
         Tread; must be even in y.
     fine : ndarray (k,)
         Arc lengths of the fine part, from 0, in m.
-    sizes : Sizes
+    grading : Grading
 
     Raises
     ------
@@ -84,7 +65,7 @@ def half_rim(d: WheelDimensions, curve: ProfileCurve, fine: Array, sizes: Sizes)
             f"wheel web_offset = {list(d.web_offset)} m: a half model needs a web that is "
             "symmetric about the tape circle; use a whole section"
         )
-    if fine[-1] >= rim - sizes.size:
+    if fine[-1] >= rim - grading.size:
         problems.append(
             f"wheel contact_half_width = {fine[-1]:g} m: must be well inside the half rim "
             f"of {rim} m"
@@ -95,17 +76,17 @@ def half_rim(d: WheelDimensions, curve: ProfileCurve, fine: Array, sizes: Sizes)
         raise InputError(problems)
     # columns: fine tread, to the side of the web, to the side of the rim
     columns = fine
-    if web > fine[-1] + 0.3 * sizes.size:
-        columns = np.r_[fine, fine[-1] + _graded(web - fine[-1], sizes.size, sizes)]
+    if web > fine[-1] + 0.3 * grading.size:
+        columns = np.r_[fine, fine[-1] + grading.steps(web - fine[-1], grading.size)[1:]]
     n_web = int(np.argmin(np.abs(columns - web)))
-    first = (columns[-1] - columns[-2]) * sizes.growth
-    columns = np.r_[columns, columns[-1] + _graded(rim - columns[-1], first, sizes)]
+    first = (columns[-1] - columns[-2]) * grading.growth
+    columns = np.r_[columns, columns[-1] + grading.steps(rim - columns[-1], first)[1:]]
     top, normal = _points(d, curve, columns)
     bottom = np.r_[columns[: n_web + 1] * (web / columns[n_web]), columns[n_web + 1 :]]
     return Rim(columns, top, normal, np.array([[0.0, d.inner_radius], top[0]]), bottom, (0, n_web))
 
 
-def whole_rim(d: WheelDimensions, curve: ProfileCurve, fine: Array, sizes: Sizes) -> Rim:
+def whole_rim(d: WheelDimensions, curve: ProfileCurve, fine: Array, grading: Grading) -> Rim:
     """Columns of a whole rim with its flange.
 
     The mapped block's upper left corner lies on the flange where the outward normal is half way
@@ -119,7 +100,7 @@ def whole_rim(d: WheelDimensions, curve: ProfileCurve, fine: Array, sizes: Sizes
         and is cut there where it ends beyond.
     fine : ndarray (k,)
         Arc lengths of the fine part in m.
-    sizes : Sizes
+    grading : Grading
 
     Raises
     ------
@@ -127,25 +108,19 @@ def whole_rim(d: WheelDimensions, curve: ProfileCurve, fine: Array, sizes: Sizes
         If profile and rim do not fit together or the fine part leaves the profile.
     """
     low, high = _ends(d, curve)
-    corner, size = _corner(curve, low, high), sizes.size
+    corner, size = _corner(curve, low, high), grading.size
     if not corner + 2 * size <= fine[0] < fine[-1] <= high - 2 * size:
         raise InputError(
             f"wheel contact zone from s = {fine[0]:.4g} to {fine[-1]:.4g} m: must lie on profile "
             f"{curve.name} from {corner + 2 * size:.4g} to {high - 2 * size:.4g} m"
         )
-    first = size * sizes.growth
-    left = fine[0] - _graded(fine[0] - corner, first, sizes)[::-1]
-    columns = np.r_[left, fine, fine[-1] + _graded(high - fine[-1], first, sizes)]
+    left = fine[0] - grading.steps(fine[0] - corner)[:0:-1]
+    columns = np.r_[left, fine, fine[-1] + grading.steps(high - fine[-1])[1:]]
     columns[0] = corner
     top, normal = _points(d, curve, columns)
     back = curve.point(np.linspace(low, corner, 20)) if corner > low else curve.point([low])
     face = np.r_[[[d.rim_inside, d.inner_radius]], np.c_[back[:, 0], d.radius - back[:, 1]]]
     return Rim(columns, top, normal, face, *_bottom(d, columns, top[:, 0]))
-
-
-def _graded(length: float, first: float, sizes: Sizes) -> Array:
-    """Positions after 0 up to the length."""
-    return graded(length, first, sizes.growth, sizes.coarse)[1:]
 
 
 def _points(d: WheelDimensions, curve: ProfileCurve, s: Array) -> tuple[Array, Array]:

@@ -14,8 +14,8 @@ from contactstudy.arrays import Array, IntArray
 from contactstudy.exceptions import InputError
 from contactstudy.profiles.rail import RailProfile
 from contactstudy.profiles.section import SectionProperties, section_properties
-from contactstudy.solids.mapped import along, graded, join, transfinite
-from contactstudy.solids.section_outline import Grading, Outline, fine_reach
+from contactstudy.solids.mapped import Grading, along, join, transfinite
+from contactstudy.solids.section_outline import Outline, columns_of, fine_reach
 
 
 @dataclass(frozen=True)
@@ -56,12 +56,10 @@ class SectionMesh:
 
 def rail_section_mesh(
     profile: RailProfile,
-    size: float = 0.002,
-    symmetric: bool = True,
-    contact_half_width: float = 0.010,
-    coarse: float = 0.009,
-    growth: float = 1.5,
+    grading: Grading,
     contact_centre: float = 0.0,
+    contact_half_width: float = 0.010,
+    symmetric: bool = True,
 ) -> SectionMesh:
     """Mesh a rail section, fine at the running surface.
 
@@ -69,19 +67,13 @@ def rail_section_mesh(
     ----------
     profile : RailProfile
         Outline of the section.
-    size : float
-        Element size at the running surface in m, laterally and in depth.
-    symmetric : bool
-        Mesh the half y >= 0 only.
-    contact_half_width : float
-        Lateral extent of the fine running surface on each side of its centre, as arc length
-        in m.
-    coarse : float
-        Largest element size away from the running surface, in m.
-    growth : float
-        Ratio of neighbouring element sizes away from the running surface.
+    grading : Grading
     contact_centre : float
         Centre of the fine running surface, arc length from the crown in m; 0 if symmetric.
+    contact_half_width : float
+        Extent of the fine running surface on each side of its centre, as arc length in m.
+    symmetric : bool
+        Mesh the half y >= 0 only.
 
     Returns
     -------
@@ -93,6 +85,7 @@ def rail_section_mesh(
         If a size is not positive or too large for the section.
     """
     problems = []
+    size, coarse, growth = grading.size, grading.coarse, grading.growth
     if not 0 < size <= 0.008:
         problems.append(f"mesh size = {size} m: must be above 0 and at most 0.008 m")
     if not 0 < contact_half_width <= 0.028:
@@ -114,7 +107,6 @@ def rail_section_mesh(
             f"contact_centre = {contact_centre} m, contact_half_width = {contact_half_width} m: "
             f"the fine zone must lie within {reach:.4f} m of the crown on both sides"
         )
-    grading = Grading(size, coarse, growth)
 
     def half(low: float, high: float) -> SectionMesh:
         outline = Outline.of(profile, round_corner=False)
@@ -132,7 +124,7 @@ def _half(outline: Outline, grading: Grading, low: float, high: float) -> Sectio
     side, coarse = outline.side, grading.coarse
     shoulder, head_corner, web_top, web_bottom, foot_top, foot_bottom = outline.marks
     web_half = side[web_top, 0]
-    lines, fine = grading.columns(low, high, outline.top_length)
+    lines, fine = columns_of(grading, low, high, outline.top_length)
     # the columns next to the axis are the web's
     nw = min(max(2, int(np.argmin(np.abs(lines - web_half)))), len(lines) - 2)
     columns = lines / lines[-1]
@@ -145,7 +137,7 @@ def _half(outline: Outline, grading: Grading, low: float, high: float) -> Sectio
 
     # head: rows grow downwards from the running surface
     depth = -side[web_top, 1]
-    rows = graded(depth, grading.size, grading.growth, coarse)
+    rows = grading.steps(depth, grading.size)
     head_rows = 1 - rows[::-1] / depth  # fractions from bottom to top
     under = side[head_corner : web_top + 1][::-1]
     share = (columns[nw:] - columns[nw]) / (columns[-1] - columns[nw])

@@ -6,39 +6,28 @@ import numpy as np
 
 from contactstudy.arrays import Array, IntArray
 from contactstudy.profiles.rail import RailProfile
-from contactstudy.solids.mapped import graded
+from contactstudy.solids.mapped import Grading
 
 _LOWEST = 0.010
 """m, by which the fine running surface ends above the head's lower corner at least."""
 
 
-@dataclass(frozen=True)
-class Grading:
-    """Element sizes in m: at the running surface and the largest; ratio of neighbours."""
-
-    size: float
-    coarse: float
-    growth: float
-
-    def columns(self, low: float, high: float, length: float) -> tuple[Array, IntArray]:
-        """Arc lengths from the axis to the shoulder, fine from `low` to `high`; which are fine."""
-        h = self.size
-        count = max(2, round((high - low) / h))
-        fine = low + (high - low) / count * np.arange(count + 1)
-        if low <= 0.0 <= high:
-            # a line on the axis, which both halves share
-            fine = h * np.arange(np.ceil(low / h - 0.499), np.floor(high / h + 0.499) + 1)
-        fine = fine[fine >= -1e-9 * h]
-        if not len(fine):
-            # all of the fine zone lies on the other half: go on growing from where it ends
-            first = min(h + (self.growth - 1) * -high, self.coarse)
-            return graded(length, first, self.growth, self.coarse), np.empty(0, dtype=np.int64)
-        before = np.empty(0)
-        if fine[0] > 1e-9 * h:
-            before = fine[0] - graded(fine[0], h * self.growth, self.growth, self.coarse)[:0:-1]
-        after = graded(length - fine[-1], h * self.growth, self.growth, self.coarse)[1:]
-        columns = np.r_[before, fine, fine[-1] + after]
-        return columns, len(before) + np.arange(len(fine))
+def columns_of(grading: Grading, low: float, high: float, length: float) -> tuple[Array, IntArray]:
+    """Arc lengths from the axis to the shoulder, fine from `low` to `high`; which are fine."""
+    h = grading.size
+    count = max(2, round((high - low) / h))
+    fine = low + (high - low) / count * np.arange(count + 1)
+    if low <= 0.0 <= high:
+        # a line on the axis, which both halves share
+        fine = h * np.arange(np.ceil(low / h - 0.499), np.floor(high / h + 0.499) + 1)
+    fine = fine[fine >= -1e-9 * h]
+    if not len(fine):
+        # all of the fine zone lies on the other half: go on growing from where it ends
+        first = min(h + (grading.growth - 1) * -high, grading.coarse)
+        return grading.steps(length, first), np.empty(0, dtype=np.int64)
+    before = fine[0] - grading.steps(fine[0])[:0:-1] if fine[0] > 1e-9 * h else np.empty(0)
+    columns = np.r_[before, fine, fine[-1] + grading.steps(length - fine[-1])[1:]]
+    return columns, len(before) + np.arange(len(fine))
 
 
 @dataclass(frozen=True)

@@ -9,8 +9,8 @@ from contactstudy.arrays import Array
 from contactstudy.profiles.named import wheel_curve
 from contactstudy.profiles.wheel_body import WheelDimensions
 from contactstudy.profiles.wheel_file import file_digest
+from contactstudy.solids.mapped import Grading
 from contactstudy.solids.recipe import CellRecipe
-from contactstudy.solids.rim import Sizes
 from contactstudy.solids.wheel_section import WheelSection, fine_arcs, wheel_section
 from contactstudy.validation import (
     Above,
@@ -22,6 +22,9 @@ from contactstudy.validation import (
     Unit,
     complaint,
 )
+
+COARSE, GROWTH = 0.012, 1.6
+"""Largest element size of the section away from the tread in m, and ratio of neighbours."""
 
 FAR_STEP = np.pi / 15
 """Largest angle between two planes in rad away from the contact, enough for statics."""
@@ -154,7 +157,7 @@ class WheelRecipe(Parameters):
             wheel_curve(self.profile),
             self.contact_centre,
             self.contact_half_width,
-            Sizes(self.size),
+            Grading(self.size, COARSE, GROWTH),
             self.symmetric,
         )
 

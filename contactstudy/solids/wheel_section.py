@@ -11,8 +11,8 @@ import numpy as np
 from contactstudy.arrays import Array, IntArray
 from contactstudy.profiles.curve import ProfileCurve
 from contactstudy.profiles.wheel_body import WheelDimensions
-from contactstudy.solids.mapped import along, graded, join, transfinite
-from contactstudy.solids.rim import Rim, Sizes, half_rim, whole_rim
+from contactstudy.solids.mapped import Grading, along, graded, join, transfinite
+from contactstudy.solids.rim import Rim, half_rim, whole_rim
 
 
 @dataclass(frozen=True)
@@ -61,7 +61,7 @@ def wheel_section(
     curve: ProfileCurve,
     contact_centre: float,
     contact_half_width: float,
-    sizes: Sizes,
+    grading: Grading,
     symmetric: bool = False,
 ) -> WheelSection:
     """Mesh a section, fine about a point of its profile.
@@ -76,7 +76,7 @@ def wheel_section(
         Arc length of the middle of the fine part on the profile in m, 0 at the tape circle.
     contact_half_width : float
         Extent of the fine part on each side in m.
-    sizes : Sizes
+    grading : Grading
     symmetric : bool
         Half section y >= 0.
 
@@ -96,14 +96,16 @@ def wheel_section(
             d, rim_inside=-rim_side, rim_outside=rim_side, hub_inside=-hub_side,
             hub_outside=hub_side,
         )  # fmt: skip
-    fine = fine_arcs(contact_centre, contact_half_width, sizes.size, symmetric)
-    rim = (half_rim if symmetric else whole_rim)(d, curve, fine, sizes)
-    head = _head(d, rim, fine, contact_centre, sizes)
+    fine = fine_arcs(contact_centre, contact_half_width, grading.size, symmetric)
+    rim = (half_rim if symmetric else whole_rim)(d, curve, fine, grading)
+    head = _head(d, rim, fine, contact_centre, grading)
     # the web's columns keep their shares of its thickness from rim to hub
     a, b = rim.web
     share = (rim.bottom[a : b + 1] - rim.bottom[a]) / (rim.bottom[b] - rim.bottom[a])
     length = d.inner_radius - d.hub_radius
-    rows = np.linspace(d.hub_radius, d.inner_radius, 1 + max(4, round(length / sizes.coarse / 1.5)))
+    rows = np.linspace(
+        d.hub_radius, d.inner_radius, 1 + max(4, round(length / grading.coarse / 1.5))
+    )
     inside, outside = d.web(rows)
     if symmetric:
         inside = 0.0 * inside
@@ -111,7 +113,7 @@ def wheel_section(
     disc = np.stack(np.broadcast_arrays(y, rows[:, None]), axis=2)
 
     def beside_web(length: float) -> Array:
-        return graded(length, sizes.coarse, sizes.growth, 2 * sizes.coarse)[1:]
+        return graded(length, grading.coarse, grading.growth, 2 * grading.coarse)[1:]
 
     left = np.empty(0) if symmetric else inside[0] - beside_web(inside[0] - d.hub_inside)[::-1]
     across = np.r_[left, y[0], outside[0] + beside_web(d.hub_outside - outside[0])]
@@ -123,12 +125,12 @@ def wheel_section(
     return WheelSection(nodes, quads, tread, ids[0][0], symmetric)
 
 
-def _head(d: WheelDimensions, rim: Rim, fine: Array, centre: float, sizes: Sizes) -> Array:
+def _head(d: WheelDimensions, rim: Rim, fine: Array, centre: float, grading: Grading) -> Array:
     """Nodes (rows, columns, 2) of the rim, rows from its inner edge to the tread."""
     base = np.c_[rim.bottom, np.full(len(rim.bottom), d.inner_radius)]
     middle = int(np.argmin(np.abs(rim.s - centre)))
     reach = float(np.linalg.norm(rim.top[middle] - base[middle]))
-    up = 1 - graded(reach, sizes.size, sizes.growth, sizes.coarse)[::-1] / reach
+    up = 1 - grading.steps(reach, grading.size)[::-1] / reach
     side = d.rim_outside + 0 * up
     right = np.c_[side, d.inner_radius + (rim.top[-1, 1] - d.inner_radius) * up]
     head = transfinite(base, rim.top, along(rim.face, up), right)

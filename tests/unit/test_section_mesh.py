@@ -7,15 +7,19 @@ from contactstudy.exceptions import InputError
 from contactstudy.profiles.rail import rail_profile
 from contactstudy.profiles.section import polygon_properties
 from contactstudy.solids.cell import section_of
-from contactstudy.solids.mapped import graded
+from contactstudy.solids.mapped import Grading, graded
 from contactstudy.solids.recipe import CellRecipe
 from contactstudy.solids.section_mesh import rail_section_mesh
+
+
+def grading(size, coarse=0.009, growth=1.5):
+    return Grading(size, coarse, growth)
 
 
 @pytest.mark.parametrize("size", [0.001, 0.002, 0.004])
 def test_section_of_the_standard(size):
     """EN 13674-1, 60E1: A 76.70 cm2, I_y 3038.3 cm4, I_z 512.3 cm4, centroid 80.92 mm."""
-    p = rail_section_mesh(rail_profile(), size).properties(0.3)
+    p = rail_section_mesh(rail_profile(), grading(size)).properties(0.3)
     print(f"{size * 1e3:.0f} mm: A {p.area * 1e4:.2f} cm2, I_y {p.second_moment_y * 1e8:.1f} cm4")
     assert p.area == pytest.approx(76.70e-4, rel=0.01)
     assert p.second_moment_y == pytest.approx(3038.3e-8, rel=0.01)
@@ -27,15 +31,15 @@ def test_section_of_the_standard(size):
 def test_area_approaches_the_outline():
     exact, *_ = polygon_properties(rail_profile().outline)
     errors = [
-        abs(rail_section_mesh(rail_profile(), h, coarse=3 * h).properties(0.3).area / exact - 1)
+        abs(rail_section_mesh(rail_profile(), grading(h, 3 * h)).properties(0.3).area / exact - 1)
         for h in (0.004, 0.002, 0.001)
     ]
     assert errors[2] < 0.3 * errors[0]
 
 
 def test_whole_section_is_two_halves():
-    half = rail_section_mesh(rail_profile(), 0.004)
-    whole = rail_section_mesh(rail_profile(), 0.004, symmetric=False)
+    half = rail_section_mesh(rail_profile(), grading(0.004))
+    whole = rail_section_mesh(rail_profile(), grading(0.004), symmetric=False)
     a, b = half.properties(0.3), whole.properties(0.3)
     assert a.area == pytest.approx(b.area, rel=1e-12)
     assert a.second_moment_y == pytest.approx(b.second_moment_y, rel=1e-12)
@@ -48,7 +52,7 @@ def test_whole_section_is_two_halves():
 
 @pytest.mark.parametrize("symmetric", [True, False])
 def test_surface_lies_on_the_crown_at_the_spacing(symmetric):
-    mesh = rail_section_mesh(rail_profile(), 0.002, symmetric)
+    mesh = rail_section_mesh(rail_profile(), grading(0.002), symmetric=symmetric)
     y, z = mesh.nodes[mesh.surface].T
     np.testing.assert_allclose(np.diff(rail_profile().curve.arc_of_y(y)), 0.002, rtol=1e-6)
     np.testing.assert_allclose(z, rail_profile().curve.height(y), atol=1e-15)
@@ -57,7 +61,7 @@ def test_surface_lies_on_the_crown_at_the_spacing(symmetric):
 
 def test_no_element_is_inverted():
     for size in (0.001, 0.002, 0.003, 0.005, 0.008):
-        mesh = rail_section_mesh(rail_profile(), size, symmetric=False)
+        mesh = rail_section_mesh(rail_profile(), grading(size), symmetric=False)
         p = mesh.nodes[mesh.quads]
         a, b = np.roll(p, -1, axis=1) - p, np.roll(p, 1, axis=1) - p
         assert np.min(a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]) > 0
@@ -68,7 +72,7 @@ def test_no_element_is_inverted():
 def test_fine_zone_round_the_gauge_corner(size, centre):
     """On the drawing to rounding, at equal steps, with sound elements, and the same section."""
     profile, half_width = rail_profile(), 0.014
-    mesh = rail_section_mesh(profile, size, False, half_width, contact_centre=centre)
+    mesh = rail_section_mesh(profile, grading(size), centre, half_width, symmetric=False)
     y, z = mesh.nodes[mesh.surface].T
     np.testing.assert_allclose(z, profile.curve.height(y), atol=1e-15)
     arc = profile.curve.arc_of_y(y)
@@ -82,7 +86,7 @@ def test_fine_zone_round_the_gauge_corner(size, centre):
         dN = np.array([[eta - 1, 1 - eta, 1 + eta, -1 - eta], [xi - 1, -1 - xi, 1 + xi, 1 - xi]])
         assert np.linalg.det(0.25 * dN @ p).min() > 0
     bent = mesh.properties(0.3)
-    plain = rail_section_mesh(profile, size, False).properties(0.3)
+    plain = rail_section_mesh(profile, grading(size), symmetric=False).properties(0.3)
     assert bent.area == pytest.approx(plain.area, rel=0.004)
     assert bent.second_moment_y == pytest.approx(plain.second_moment_y, rel=0.004)
     assert bent.second_moment_z == pytest.approx(plain.second_moment_z, rel=0.004)
@@ -112,6 +116,6 @@ def test_graded_steps():
 
 def test_bad_sizes_are_all_named():
     with pytest.raises(InputError, match=r"mesh size.*\n.*contact_half_width.*\n.*growth"):
-        rail_section_mesh(rail_profile(), -1.0, True, 0.03, growth=0.5)
+        rail_section_mesh(rail_profile(), grading(-1.0, growth=0.5), 0.0, 0.03)
     with pytest.raises(InputError, match=r"size = 0.*\n.*interface_modes.*\n.*density"):
         CellRecipe(size=0.0, interface_modes=2, density=-1.0)

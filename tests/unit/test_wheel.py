@@ -11,7 +11,7 @@ from contactstudy.exceptions import InputError
 from contactstudy.profiles import rail_curve, wheel_curve
 from contactstudy.profiles.wheel_body import WheelDimensions
 from contactstudy.solids.hexahedron import hex_stiffness
-from contactstudy.solids.rim import Sizes
+from contactstudy.solids.mapped import Grading
 from contactstudy.solids.ring import ring_slice
 from contactstudy.solids.wheel import WheelRecipe, elastic_wheel, rigid_wheel
 from contactstudy.solids.wheel_section import wheel_section
@@ -20,7 +20,7 @@ COARSE = WheelRecipe(size=0.008, contact_half_length=0.016, contact_half_width=0
 
 
 def section_of(recipe: WheelRecipe):  # type: ignore[no-untyped-def]
-    tread, sizes = wheel_curve("cylinder"), Sizes(recipe.size)
+    tread, sizes = wheel_curve("cylinder"), Grading(recipe.size, 0.012, 1.6)
     return wheel_section(recipe.dimensions, tread, 0.0, recipe.contact_half_width, sizes, True)
 
 

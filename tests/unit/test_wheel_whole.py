@@ -12,11 +12,12 @@ from contactstudy.profiles.named import wheel_curve
 from contactstudy.profiles.pieces import LinePiece
 from contactstudy.profiles.wheel_body import WheelDimensions
 from contactstudy.solids import wheel as wheel_module
-from contactstudy.solids.rim import Sizes
+from contactstudy.solids.mapped import Grading
 from contactstudy.solids.wheel import WheelRecipe, elastic_wheel
 from contactstudy.solids.wheel_section import WheelSection, wheel_section
 from contactstudy.verification.cases.wheel_frequencies import whole_ring
 
+SIZES = Grading(0.002, 0.012, 1.6)
 COARSE = WheelRecipe(
     profile="S1002",
     symmetric=False,
@@ -38,7 +39,7 @@ def corner_angles(section: WheelSection) -> np.ndarray:
 @pytest.mark.parametrize("centre", [-0.044, -0.038, -0.032, -0.02, 0.0, 0.01, 0.03, 0.045])
 def test_the_fine_zone_lies_anywhere_on_the_profile(centre: float) -> None:
     curve = wheel_curve("S1002")
-    section = wheel_section(WheelDimensions(), curve, centre, 0.008, Sizes(0.002))
+    section = wheel_section(WheelDimensions(), curve, centre, 0.008, SIZES)
     assert len(section.nodes) < 600
     assert corner_angles(section).min() > 0.15
     tread = np.c_[section.nodes[section.tread, 0], 0.43 - section.nodes[section.tread, 1]]
@@ -49,7 +50,7 @@ def test_the_fine_zone_lies_anywhere_on_the_profile(centre: float) -> None:
 
 def test_area_of_the_section() -> None:
     d, curve = WheelDimensions(), wheel_curve("S1002")
-    section = wheel_section(d, curve, 0.0, 0.010, Sizes(0.002, coarse=0.004))
+    section = wheel_section(d, curve, 0.0, 0.010, Grading(0.002, 0.004, 1.6))
     y, r = section.nodes[section.quads].transpose(2, 0, 1)
     area = 0.5 * (y * np.roll(r, -1, 1) - np.roll(y, -1, 1) * r).sum()
     # web and hub, and the rim below the profile, continued straight to the face
@@ -66,7 +67,7 @@ def test_area_of_the_section() -> None:
 
 def test_impossible_zones_and_profiles() -> None:
     with pytest.raises(InputError, match="contact zone from s ="):
-        wheel_section(WheelDimensions(), wheel_curve("S1002"), 0.06, 0.008, Sizes(0.002))
+        wheel_section(WheelDimensions(), wheel_curve("S1002"), 0.06, 0.008, SIZES)
     with pytest.raises(InputError, match="contact_centre"):
         WheelRecipe(contact_centre=0.01)
 
