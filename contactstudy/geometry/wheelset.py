@@ -15,18 +15,16 @@ from contactstudy.geometry.pose import Pose
 from contactstudy.profiles.curve import ProfileCurve
 from contactstudy.units import UnitError
 from contactstudy.validation import (
-    Above,
-    AtLeast,
-    AtMost,
     Parameters,
     Same,
-    Unit,
     Written,
 )
+from contactstudy.validation import quantities as q
 from contactstudy.vehicle import WheelColumn
 
 Side = Literal["left", "right"]
 SIDES: tuple[Side, ...] = ("left", "right")
+INCLINATION = math.atan(1 / 40)
 _LARGEST_ROLL = 0.1
 _RATIO = re.compile(r"\s*1\s*:\s*(\d+(?:\.\d+)?)\s*")
 
@@ -40,36 +38,23 @@ def _of_ratio(value: Any, unit: str) -> Any:
     return value
 
 
-SMALL_ANGLE = (Unit("rad"), AtLeast(-0.2), AtMost(0.2))
-
-
 @dataclass(frozen=True)
 class WheelsetDimensions(Parameters):
-    """How two equal wheels on an axle fit over two equal rails.
-
-    Parameters
-    ----------
-    rail_inclination : float
-        Of both rails towards the track's centre [rad].
-    gauge, gauge_depth : float
-        Distance of the rails' inner faces, measured so far below their tops [m].
-    flange_backs, tape_line : float
-        Distance between the flanges' backs, and of a tape circle outside its back [m].
-    """
+    """How two equal wheels on an axle fit over two equal rails."""
 
     rail_inclination: Annotated[
-        float, *SMALL_ANGLE, Written(_of_ratio, "a ratio like 1:40"), "of the rails, inwards"
-    ] = math.atan(1 / 40)
-    gauge: Annotated[float, Unit("m"), Above(0), "distance of the rails' inner faces"] = 1.435
+        q.SmallAngle, Written(_of_ratio, "a ratio like 1:40"), "of the rails, inwards"
+    ] = INCLINATION
+    gauge: Annotated[q.Length, "distance of the rails' inner faces"] = 1.435
     gauge_depth: Annotated[
-        float, Unit("m"), Above(0), "depth below the rails' tops at which the gauge is measured"
+        q.Length, "depth below the rails' tops at which the gauge is measured"
     ] = 0.014
     flange_backs: Annotated[
-        float, Unit("m"), Above(0), "distance between the backs of the flanges"
+        q.Length, "distance between the backs of the flanges"
     ] = 1.360  # fmt: skip
-    tape_line: Annotated[
-        float, Unit("m"), AtLeast(0), "distance of the tape circle from the flange's back"
-    ] = 0.070
+    tape_line: Annotated[q.LengthOrZero, "distance of the tape circle from the flange's back"] = (
+        0.070
+    )
 
 
 @dataclass(frozen=True, eq=False)

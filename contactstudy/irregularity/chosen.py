@@ -8,7 +8,7 @@ from contactstudy.irregularity.measured import Interpolation, MeasuredProfile, m
 from contactstudy.irregularity.profile import Profile, SmoothRail
 from contactstudy.irregularity.psd import Spectrum
 from contactstudy.irregularity.sample import sample_profile
-from contactstudy.irregularity.spectra import paper_spectrum, spectrum
+from contactstudy.irregularity.spectra import NAMES, paper_spectrum, spectrum
 from contactstudy.validation import (
     Above,
     AtLeast,
@@ -19,12 +19,10 @@ from contactstudy.validation import (
     When,
     complaint,
 )
+from contactstudy.validation import quantities as q
 
-GENERATED = (
-    "paper", "german_low", "german_high", "fra1", "fra2", "fra3", "fra4", "fra5", "fra6", "tbt3352",
-)  # fmt: skip
 _PAPER = When("spectrum", "paper")
-_GENERATED = When("spectrum", *GENERATED)
+_GENERATED = When("spectrum", *NAMES)
 _MEASURED = When("spectrum", "measured")
 # how a CSV file is read
 _CSV = (
@@ -51,9 +49,9 @@ class Irregularity(Parameters):
         float, Unit("m^2*rad/m"), Above(0), _PAPER, "A_r of eq. (3)"
     ] = 0.8e-7  # fmt: skip
     omega_1: Annotated[float, Unit("rad/m"), AtLeast(0), _PAPER, "of eq. (3)"] = 0.0
-    omega_2: Annotated[float, Unit("rad/m"), Above(0), _PAPER, "of eq. (3)"] = 1.0
-    seed: Annotated[int, AtLeast(0), _GENERATED, "of the random phases"] = 1
-    terms: Annotated[int, AtLeast(1), _GENERATED, "number of terms N of eq. (1)"] = 1000
+    omega_2: Annotated[q.Wavenumber, _PAPER, "of eq. (3)"] = 1.0
+    seed: Annotated[q.CountOrZero, _GENERATED, "of the random phases"] = 1
+    terms: Annotated[q.Count, _GENERATED, "number of terms N of eq. (1)"] = 1000
     band: Annotated[
         tuple[float, float], Unit("rad/m"), Above(0), _GENERATED, "lowest and highest wavenumber"
     ] = (0.08, 20.0)
@@ -64,13 +62,13 @@ class Irregularity(Parameters):
     measured_overlay: Annotated[
         str,
         File(),
-        When("spectrum", *GENERATED, "smooth"),
+        When("spectrum", *NAMES, "smooth"),
         "CSV file that is drawn beside it",
     ] = ""
     x_column: Annotated[str, "column of the CSV file with the position in m"] = "x"
     level_column: Annotated[str, "column with the level, up positive"] = ""
     level_unit: Annotated[Literal["mm", "m"], "its unit"] = "mm"
-    origin: Annotated[float, Unit("m"), _MEASURED, "position in the file that is X = 0"] = 0.0
+    origin: Annotated[q.Position, _MEASURED, "position in the file that is X = 0"] = 0.0
     wavelengths: Annotated[
         tuple[float, float], Unit("m"), Above(0), "shortest and longest wavelength that is kept"
     ] = (2.5, 42.0)
@@ -105,7 +103,7 @@ class Irregularity(Parameters):
     @property
     def generated(self) -> bool:
         """Whether the profile is made from a spectrum."""
-        return self.spectrum in GENERATED
+        return self.spectrum in NAMES
 
     def resolved(self) -> dict[str, Any]:
         """Key -> SI value; how to read a CSV is left out where none is named."""

@@ -13,6 +13,7 @@ from contactstudy.validation import (
     Unit,
     complaint,
 )
+from contactstudy.validation import quantities as q
 
 
 @dataclass(frozen=True)
@@ -65,11 +66,11 @@ class CellRecipe(Parameters):
     ] = 0.009  # fmt: skip
     contact_centre: float = 0.0
     symmetric: bool = True
-    youngs_modulus: Annotated[float, Unit("Pa"), Above(0), Key(""), "Young's modulus"] = 210e9
+    youngs_modulus: Annotated[q.Modulus, Key(""), "Young's modulus"] = 210e9
     poisson_ratio: Annotated[
-        float, AtLeast(0), AtMost(0.49), Key(""), "Poisson's ratio"
+        q.PoissonRatio, Key(""), "Poisson's ratio"
     ] = 0.3  # fmt: skip
-    density: Annotated[float, Unit("kg/m^3"), Above(0), Key(""), "density of the steel"] = 7850.0
+    density: Annotated[q.Density, Key(""), "density of the steel"] = 7850.0
 
     def problems(self, key: Naming) -> list[str]:
         """Sizes that do not fit each other, and fewer modes than the section has rigid motions."""

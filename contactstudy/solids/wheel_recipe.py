@@ -22,6 +22,7 @@ from contactstudy.validation import (
     Unit,
     complaint,
 )
+from contactstudy.validation import quantities as q
 
 COARSE, GROWTH = 0.012, 1.6
 """Largest element size of the section away from the tread in m, and ratio of neighbours."""
@@ -67,12 +68,8 @@ class WheelRecipe(Parameters):
     rail_profile: str = "60E1"
     dimensions: WheelDimensions = field(default_factory=WheelDimensions)
     size: Annotated[float, Same(CellRecipe, "size"), Key("mesh_size")] = CellRecipe.size
-    contact_half_length: Annotated[
-        float, Unit("m"), Above(0), "half the finely meshed tread along the rail"
-    ] = 0.012
-    contact_half_width: Annotated[
-        float, Unit("m"), Above(0), "half the finely meshed tread across the rail"
-    ] = 0.008
+    contact_half_length: Annotated[q.Length, "half the finely meshed tread along the rail"] = 0.012
+    contact_half_width: Annotated[q.Length, "half the finely meshed tread across the rail"] = 0.008
     youngs_modulus: Annotated[float, Same(CellRecipe, "youngs_modulus"), Key("")] = (
         CellRecipe.youngs_modulus
     )

@@ -10,7 +10,6 @@ import numpy as np
 from contactstudy.arrays import Array, IntArray
 from contactstudy.track.model import Track
 from contactstudy.validation import (
-    Above,
     AtLeast,
     Key,
     Naming,
@@ -18,36 +17,19 @@ from contactstudy.validation import (
     Unit,
     complaint,
 )
+from contactstudy.validation import quantities as q
 from contactstudy.vehicle import Vehicle
 
 
 @dataclass(frozen=True)
 class Journey(Parameters):
-    """A run at constant speed.
+    """A run at constant speed."""
 
-    Parameters
-    ----------
-    start, end : float
-        X of the leading wheel at the first and (at most) at the last step [m].
-    speed : float
-        [m/s].
-    time_step : float
-        [s].
-    fade_in : float
-        Length over which the irregularity grows from nothing, from each wheel's start on [m].
-    stations : tuple of float
-        X where the rail's displacement is recorded [m].
-    """
-
-    start: Annotated[
-        float, Unit("m"), AtLeast(0), Key("from"), "where the leading wheel starts"
-    ] = 6.0
-    end: Annotated[float, Unit("m"), AtLeast(0), Key("to"), "where it ends"] = 30.0
-    speed: Annotated[float, Unit("m/s"), Above(0), "speed"] = 300.0 / 3.6
-    time_step: Annotated[float, Unit("s"), Above(0), "time step"] = 5e-5
-    fade_in: Annotated[float, Unit("m"), AtLeast(0), "length over which the irregularity grows"] = (
-        3.0
-    )
+    start: Annotated[q.LengthOrZero, Key("from"), "where the leading wheel starts"] = 6.0
+    end: Annotated[q.LengthOrZero, Key("to"), "where it ends"] = 30.0
+    speed: Annotated[q.Speed, "speed"] = 300.0 / 3.6
+    time_step: Annotated[q.Duration, "time step"] = 5e-5
+    fade_in: Annotated[q.LengthOrZero, "length over which the irregularity grows"] = 3.0
     stations: Annotated[
         tuple[float, ...], Unit("m"), AtLeast(0), "where the rail's displacement is recorded"
     ] = ()

@@ -21,6 +21,7 @@ from contactstudy.validation import (
     Variants,
     complaint,
 )
+from contactstudy.validation import quantities as q
 
 Ends = Literal["clamped", "pinned", "free"]
 
@@ -35,28 +36,14 @@ def whole(ratio: float) -> bool:
 
 @dataclass(frozen=True)
 class Ballast(Parameters):
-    """Spring and damper from each half sleeper to the ground.
+    """Spring and damper from each half sleeper to the ground."""
 
-    Parameters
-    ----------
-    stiffness, damping : float
-        Vertical, per rail seat [N/m], [N s/m].
-    lateral_stiffness, lateral_damping : float
-        The same for lateral motion of the sleeper.
-    """
-
-    stiffness: Annotated[
-        float, Unit("N/m"), Above(0), Key("ballast_stiffness"), "ballast, per rail seat"
-    ] = 137.75e6
-    damping: Annotated[
-        float, Unit("N*s/m"), AtLeast(0), Key("ballast_damping"), "ballast, per rail seat"
-    ] = 58.8e3
+    stiffness: Annotated[q.Stiffness, Key("ballast_stiffness"), "of the ballast"] = 137.75e6
+    damping: Annotated[q.Damping, Key("ballast_damping"), "of the ballast"] = 58.8e3
     lateral_stiffness: Annotated[
-        float, Unit("N/m"), Above(0), Key("lateral_ballast_stiffness"), "ballast, lateral motion"
+        q.Stiffness, Key("lateral_ballast_stiffness"), "of the ballast"
     ] = 50e6
-    lateral_damping: Annotated[
-        float, Unit("N*s/m"), AtLeast(0), Key("lateral_ballast_damping"), "ballast, lateral motion"
-    ] = 40e3
+    lateral_damping: Annotated[q.Damping, Key("lateral_ballast_damping"), "of the ballast"] = 40e3
 
 
 @dataclass(frozen=True)
@@ -64,34 +51,19 @@ class Slab(Parameters):
     """A continuous slab: Euler beam with free ends on a uniform viscoelastic bed.
 
     A half sleeper, if any, is cast into the slab: its mass is lumped there.
-
-    Parameters
-    ----------
-    bending_stiffness : float
-        EI of half the slab, vertical bending [N m^2].
-    mass_per_length : float
-        Of half the slab [kg/m].
-    stiffness, damping : float
-        Of the bed under half the slab, per length [N/m^2], [N s/m^2].
-    lateral_bending_stiffness, lateral_stiffness, lateral_damping : float
-        The same for lateral motion.
     """
 
     bending_stiffness: Annotated[
-        float, Unit("N*m^2"), Above(0), Key("slab_bending_stiffness"), "EI of half the slab"
+        q.BendingStiffness, Key("slab_bending_stiffness"), "of half the slab"
     ] = 60e6
-    mass_per_length: Annotated[
-        float, Unit("kg/m"), Above(0), Key("slab_mass_per_length"), "half the slab"
-    ] = 730.0
-    stiffness: Annotated[
-        float, Unit("N/m^2"), Above(0), Key("slab_bed_stiffness"), "bed under half the slab"
-    ] = 625e6
-    damping: Annotated[
-        float, Unit("N*s/m^2"), AtLeast(0), Key("slab_bed_damping"), "bed under half the slab"
-    ] = 83e3
-    lateral_bending_stiffness: Annotated[float, Unit("N*m^2"), Above(0), Key("")] = 1e9
-    lateral_stiffness: Annotated[float, Unit("N/m^2"), Above(0), Key("")] = 300e6
-    lateral_damping: Annotated[float, Unit("N*s/m^2"), AtLeast(0), Key("")] = 83e3
+    mass_per_length: Annotated[q.MassPerLength, Key("slab_mass_per_length"), "of half the slab"] = (
+        730.0
+    )
+    stiffness: Annotated[q.BedStiffness, Key("slab_bed_stiffness"), "of the bed below it"] = 625e6
+    damping: Annotated[q.BedDamping, Key("slab_bed_damping"), "of the bed below it"] = 83e3
+    lateral_bending_stiffness: Annotated[q.BendingStiffness, Key("")] = 1e9
+    lateral_stiffness: Annotated[q.BedStiffness, Key("")] = 300e6
+    lateral_damping: Annotated[q.BedDamping, Key("")] = 83e3
 
 
 @dataclass(frozen=True)
@@ -100,35 +72,19 @@ class DiscreteSupports(Parameters):
 
     The pad acts on the average rail displacement over its footprint, which is cut off where the
     track ends; the pad's whole stiffness is kept there.
-
-    Parameters
-    ----------
-    spacing : float
-        [m].
-    pad_stiffness, pad_damping : float
-        Vertical, per seat [N/m], [N s/m].
-    pad_length : float
-        Length of the footprint along the rail [m]; 0 is a point support.
-    sleeper_mass : float
-        Half sleeper [kg].
-    layer : Ballast or Slab
-    lateral_pad_stiffness, lateral_pad_damping : float
-        Per seat, for lateral motion of the rail against the sleeper [N/m], [N s/m].
     """
 
-    spacing: Annotated[float, Unit("m"), Above(0), "distance of the supports"] = 0.6
-    pad_stiffness: Annotated[float, Unit("N/m"), Above(0), "rail pad"] = 65e6
-    pad_damping: Annotated[float, Unit("N*s/m"), AtLeast(0), "rail pad"] = 75e3
-    pad_length: Annotated[
-        float, Unit("m"), AtLeast(0), "length of the pad along the rail; 0 is a point"
-    ] = 0.16
-    sleeper_mass: Annotated[float, Unit("kg"), AtLeast(0), "half a sleeper"] = 125.5
+    spacing: Annotated[q.Length, "distance of the supports"] = 0.6
+    pad_stiffness: Annotated[q.Stiffness, "of a rail pad"] = 65e6
+    pad_damping: Annotated[q.Damping, "of a rail pad"] = 75e3
+    pad_length: Annotated[q.LengthOrZero, "length of the pad along the rail; 0 is a point"] = 0.16
+    sleeper_mass: Annotated[q.MassOrZero, "of half a sleeper"] = 125.5
     layer: Annotated[
         Ballast | Slab,
         Variants("layer", {"ballast": Ballast, "slab": Slab}, "what lies below the sleepers"),
     ] = field(default_factory=Ballast)
-    lateral_pad_stiffness: Annotated[float, Unit("N/m"), Above(0), "rail pad, lateral"] = 20e6
-    lateral_pad_damping: Annotated[float, Unit("N*s/m"), AtLeast(0), "rail pad, lateral"] = 50e3
+    lateral_pad_stiffness: Annotated[q.Stiffness, "of a rail pad"] = 20e6
+    lateral_pad_damping: Annotated[q.Damping, "of a rail pad"] = 50e3
 
     def problems(self, key: Naming) -> list[str]:
         """Pads that overlap."""
@@ -140,22 +96,10 @@ class DiscreteSupports(Parameters):
 
 @dataclass(frozen=True)
 class WinklerFoundation(Parameters):
-    """Uniform springs and dampers under the rail.
+    """Uniform springs and dampers under the rail."""
 
-    Parameters
-    ----------
-    stiffness, damping : float
-        Vertical, per length [N/m^2], [N s/m^2].
-    lateral_stiffness, lateral_damping : float, optional
-        The same for lateral motion; as vertical when not given.
-    """
-
-    stiffness: Annotated[
-        float, Unit("N/m^2"), Above(0), Key("foundation_stiffness"), "uniform, per length"
-    ] = 30e6
-    damping: Annotated[
-        float, Unit("N*s/m^2"), AtLeast(0), Key("foundation_damping"), "uniform, per length"
-    ] = 0.0
+    stiffness: Annotated[q.BedStiffness, Key("foundation_stiffness"), "of the bed"] = 30e6
+    damping: Annotated[q.BedDamping, Key("foundation_damping"), "of the bed"] = 0.0
     lateral_stiffness: Annotated[float | None, Unit("N/m^2"), Above(0), Key("")] = None
     lateral_damping: Annotated[float | None, Unit("N*s/m^2"), AtLeast(0), Key("")] = None
 
@@ -206,7 +150,7 @@ class Track(Parameters):
             "what carries the rail",
         ),
     ] = field(default_factory=DiscreteSupports)
-    length: Annotated[float, Unit("m"), Above(0), "length of the track"] = 36.0
+    length: Annotated[q.Length, "length of the track"] = 36.0
     ends: Annotated[Ends, "both ends of the rail"] = "clamped"
 
     def problems(self, key: Naming) -> list[str]:

@@ -14,6 +14,7 @@ from contactstudy.validation import (
     Unit,
     positive,
 )
+from contactstudy.validation import quantities as q
 
 Direction = Literal["Z", "Y"]
 
@@ -89,34 +90,17 @@ class Rail(Parameters):
 
 @dataclass(frozen=True)
 class GivenRail(Rail):
-    """A rail, or any beam, given by its stiffness and mass; both bending planes get the same EI.
-
-    Parameters
-    ----------
-    EI : float
-        Bending stiffness [N m^2].
-    mass : float
-        Per length [kg/m].
-    area : float
-        [m^2]; only matters to Timoshenko's theory (shear stiffness and rotary inertia).
-    crown_radius : float
-        Of the running surface across the rail, for Hertz [m].
-    shear_coefficient : float
-    youngs_modulus, poisson_ratio : float
-        As in `Rail`.
-    """
+    """A rail, or any beam, given by its stiffness and mass; both bending planes get the same EI."""
 
     section: SectionProperties = field(init=False)
     density: float = field(init=False)
     profile_name: str | None = field(init=False, default=None)
-    EI: Annotated[
-        float, Unit("N*m^2"), Above(0), Key("bending_stiffness"), "bending stiffness of the rail"
-    ] = 6.4155e6
-    mass: Annotated[
-        float, Unit("kg/m"), Above(0), Key("mass_per_length"), "mass of the rail per length"
-    ] = 60.367
+    EI: Annotated[q.BendingStiffness, Key("bending_stiffness"), "bending stiffness of the rail"] = (
+        6.4155e6
+    )
+    mass: Annotated[q.MassPerLength, Key("mass_per_length"), "mass of the rail per length"] = 60.367
     area: Annotated[float, Unit("m^2"), Above(0), "area of the rail's section"] = 76.70e-4
-    crown_radius: Annotated[float, Unit("m"), Above(0), "radius of the rail's crown"] = 0.3
+    crown_radius: Annotated[q.Length, "radius of the rail's crown"] = 0.3
     shear_coefficient: Annotated[float, Above(0), "shear coefficient of the section"] = 0.4
 
     def __post_init__(self) -> None:

@@ -8,7 +8,8 @@ from typing import Annotated
 
 import numpy as np
 
-from contactstudy.validation import Above, AtLeast, Parameters, Same, Unit, Variants
+from contactstudy.validation import Parameters, Same, Variants
+from contactstudy.validation import quantities as q
 from contactstudy.vehicle.model import Vehicle
 
 GRAVITY = 9.81
@@ -17,28 +18,16 @@ GRAVITY = 9.81
 
 @dataclass(frozen=True)
 class WheelColumn(Parameters):
-    """Wheel, bogie share and car share above each other.
+    """Wheel, bogie share and car share above each other."""
 
-    Parameters
-    ----------
-    wheel_mass, bogie_mass, car_mass : float
-        [kg].
-    primary_stiffness, primary_damping : float
-        Wheel to bogie [N/m], [N s/m].
-    secondary_stiffness, secondary_damping : float
-        Bogie to car [N/m], [N s/m].
-    wheel_radius : float
-        At the tape circle [m].
-    """
-
-    wheel_mass: Annotated[float, Unit("kg"), Above(0), "wheel with its share of the axle"] = 890.0
-    bogie_mass: Annotated[float, Unit("kg"), Above(0), "share of the bogie"] = 760.0
-    car_mass: Annotated[float, Unit("kg"), Above(0), "share of the car body"] = 5219.0
-    primary_stiffness: Annotated[float, Unit("N/m"), Above(0), "wheel to bogie"] = 0.59e6
-    primary_damping: Annotated[float, Unit("N*s/m"), AtLeast(0), "wheel to bogie"] = 19.6e3
-    secondary_stiffness: Annotated[float, Unit("N/m"), Above(0), "bogie to car"] = 0.1325e6
-    secondary_damping: Annotated[float, Unit("N*s/m"), AtLeast(0), "bogie to car"] = 22.55e3
-    wheel_radius: Annotated[float, Unit("m"), Above(0), "radius at the tape circle"] = 0.43
+    wheel_mass: Annotated[q.Mass, "wheel with its share of the axle"] = 890.0
+    bogie_mass: Annotated[q.Mass, "share of the bogie"] = 760.0
+    car_mass: Annotated[q.Mass, "share of the car body"] = 5219.0
+    primary_stiffness: Annotated[q.Stiffness, "wheel to bogie"] = 0.59e6
+    primary_damping: Annotated[q.Damping, "wheel to bogie"] = 19.6e3
+    secondary_stiffness: Annotated[q.Stiffness, "bogie to car"] = 0.1325e6
+    secondary_damping: Annotated[q.Damping, "bogie to car"] = 22.55e3
+    wheel_radius: Annotated[q.Length, "radius at the tape circle"] = 0.43
 
     @property
     def static_load(self) -> float:
@@ -70,20 +59,10 @@ class WheelColumn(Parameters):
 
 @dataclass(frozen=True)
 class BareWheel(Parameters):
-    """One wheel under a constant load, its weight included.
-
-    Parameters
-    ----------
-    wheel_mass : float
-        [kg].
-    static_load : float
-        [N].
-    wheel_radius : float
-        [m].
-    """
+    """One wheel under a constant load, its weight included."""
 
     wheel_mass: Annotated[float, Same(WheelColumn, "wheel_mass")] = WheelColumn.wheel_mass
-    static_load: Annotated[float, Unit("N"), Above(0), "force on the rail at rest"] = 67.4e3
+    static_load: Annotated[q.Force, "force on the rail at rest"] = 67.4e3
     wheel_radius: Annotated[float, Same(WheelColumn, "wheel_radius")] = WheelColumn.wheel_radius
 
     def vehicle(self) -> Vehicle:

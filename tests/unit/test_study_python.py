@@ -130,5 +130,7 @@ def test_key_reference_has_every_key():
                 if line.startswith(f"| `{key}` |")
             ]
             assert entry.parameter.meaning and entry.parameter.meaning in row
-    assert "| `pad_stiffness` | N/m | 6.5e+07 | above 0 N/m | rail pad; only with support" in text
+    assert (
+        "| `pad_stiffness` | N/m | 6.5e+07 | above 0 N/m | of a rail pad; only with support" in text
+    )
     assert "14 (half), 20 (whole)" in text and "not with spectrum = measured or smooth" in text

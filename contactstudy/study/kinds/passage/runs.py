@@ -12,8 +12,6 @@ from contactstudy.track.beam import BeamTrack
 from contactstudy.track.model import Direction
 from contactstudy.validation import (
     Above,
-    AtLeast,
-    AtMost,
     Naming,
     Parameters,
     Same,
@@ -22,6 +20,7 @@ from contactstudy.validation import (
     When,
     complaint,
 )
+from contactstudy.validation import quantities as q
 
 _BEAM = When("rail", "euler", "timoshenko")
 
@@ -39,7 +38,7 @@ class Run(Parameters):
         "time stepper; the one that suits the run if left out",
     ] = None
     rho_inf: Annotated[
-        float, AtLeast(0), AtMost(1), When("stepper", "generalised_alpha", key="integrator"),
+        q.Fraction, When("stepper", "generalised_alpha", key="integrator"),
         "spectral radius at infinite frequency",
     ] = 0.8  # fmt: skip
 

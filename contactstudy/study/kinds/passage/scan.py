@@ -12,7 +12,6 @@ from contactstudy.geometry.pose import Pose
 from contactstudy.profiles.curve import ProfileCurve
 from contactstudy.scans import Meeting, Scan, meeting, read_scan
 from contactstudy.validation import (
-    Above,
     AtLeast,
     AtMost,
     File,
@@ -21,6 +20,7 @@ from contactstudy.validation import (
     Unit,
     complaint,
 )
+from contactstudy.validation import quantities as q
 
 PATHS = ("rail", "wheel")
 """Keys that hold a file's name."""
@@ -39,16 +39,14 @@ class ScanFiles(Parameters):
 
     rail: Annotated[str, File(), "scanned rail head"] = ""
     rail_unit: Annotated[LengthUnit, "length unit of that file"] = ""
-    rail_middle: Annotated[float, Unit("m"), "Y of the rail's middle plane in the scan"] = 0.0
+    rail_middle: Annotated[q.Position, "Y of the rail's middle plane in the scan"] = 0.0
     wheel: Annotated[str, File(), "scanned tread"] = ""
     wheel_unit: Annotated[LengthUnit, "length unit of that file"] = ""
-    wheel_tape: Annotated[float, Unit("m"), "Y of the tape circle in the scan"] = 0.0
+    wheel_tape: Annotated[q.Position, "Y of the tape circle in the scan"] = 0.0
     smoothing: Annotated[
         float, Unit("m"), AtLeast(1e-5), AtMost(0.01), "least distance of the fitted curve's knots"
     ] = 1e-3
-    residual_limit: Annotated[
-        float, Unit("m"), Above(0), "largest root mean square of the residual"
-    ] = 1e-4
+    residual_limit: Annotated[q.Length, "largest root mean square of the residual"] = 1e-4
 
     @property
     def used(self) -> bool:

@@ -13,7 +13,6 @@ from contactstudy.exceptions import ContactStudyError, InputError
 from contactstudy.geometry.pose import Pose
 from contactstudy.geometry.wheelset import (
     SIDES,
-    SMALL_ANGLE,
     Side,
     Wheelset,
     WheelsetDimensions,
@@ -21,6 +20,7 @@ from contactstudy.geometry.wheelset import (
 from contactstudy.profiles.curve import ProfileCurve
 from contactstudy.profiles.named import rail_curve, wheel_curve
 from contactstudy.validation import AtLeast, AtMost, File, Naming, Unit
+from contactstudy.validation import quantities as q
 
 PATHS = ("wheel_profile", "rail_profile")
 """Keys that may hold a file's name instead of a profile's."""
@@ -53,9 +53,9 @@ class WheelsetPosition(WheelsetDimensions):
     lateral_shift: Annotated[
         float, Unit("m"), AtLeast(-0.05), AtMost(0.05), "of the wheelset, to the right"
     ] = 0.0
-    yaw: Annotated[float, *SMALL_ANGLE, "of the wheelset, clockwise seen from above"] = 0.0
+    yaw: Annotated[q.SmallAngle, "of the wheelset, clockwise seen from above"] = 0.0
     roll: Annotated[
-        float | Literal["rest"], *SMALL_ANGLE, "right side down; at rest both wheels touch"
+        float | Literal["rest"], *q.SMALL_ANGLE, "right side down; at rest both wheels touch"
     ] = "rest"
 
     def curves(self, meshed_rail: str) -> tuple[ProfileCurve, ProfileCurve]:

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Annotated, Any, Literal
 
 from contactstudy.exceptions import InputError
-from contactstudy.geometry.wheelset import SIDES, SMALL_ANGLE, Side, Wheelset, WheelsetDimensions
+from contactstudy.geometry.wheelset import SIDES, Side, Wheelset, WheelsetDimensions
 from contactstudy.halfspace.hertz import contact_modulus
 from contactstudy.profiles.curve import ProfileCurve
 from contactstudy.profiles.named import rail_curve, wheel_curve
@@ -22,7 +22,6 @@ from contactstudy.study.overrides import override
 from contactstudy.track.rail import Rail
 from contactstudy.units import UnitError, to_si
 from contactstudy.validation import (
-    Above,
     AtLeast,
     AtMost,
     File,
@@ -36,6 +35,7 @@ from contactstudy.validation import (
     units,
     unknown,
 )
+from contactstudy.validation import quantities as q
 from contactstudy.vehicle import WheelColumn
 
 _RANGE = re.compile(r"(.+?)\s+to\s+(.+?)\s+by\s+(.+)")
@@ -71,18 +71,18 @@ class Positions(WheelsetDimensions):
         "lateral shifts of the wheelset, to the right",
     ] = (0.0,)  # fmt: skip
     yaw: Annotated[
-        tuple[float, ...], *SMALL_ANGLE, SERIES, "one for all or for each, clockwise from above"
+        tuple[float, ...], *q.SMALL_ANGLE, SERIES, "one for all or for each, clockwise from above"
     ] = (0.0,)
     roll: Annotated[
-        Literal["rest"] | tuple[float, ...], *SMALL_ANGLE, SERIES,
+        Literal["rest"] | tuple[float, ...], *q.SMALL_ANGLE, SERIES,
         "right side down, one for all or for each; at rest both wheels touch",
     ] = "rest"  # fmt: skip
-    load: Annotated[float, Unit("N"), Above(0), "vertical load on each wheel"] = 67.4e3
+    load: Annotated[q.Force, "vertical load on each wheel"] = 67.4e3
     wheel_profile: Annotated[str, Same(WheelsetPosition, "wheel_profile")] = "S1002"
     rail_profile: Annotated[str, File(True), "profile, or a CSV file with points"] = "60E1"
     wheel_radius: Annotated[float, Same(WheelColumn, "wheel_radius")] = WheelColumn.wheel_radius
     origin: Annotated[
-        float, Unit("m"), "Y of the rail's crown that lateral positions are measured from"
+        q.Position, "Y of the rail's crown that lateral positions are measured from"
     ] = 0.0
     youngs_modulus: Annotated[float, Same(Rail, "youngs_modulus")] = Rail.youngs_modulus
     poisson_ratio: Annotated[float, Same(Rail, "poisson_ratio")] = Rail.poisson_ratio
