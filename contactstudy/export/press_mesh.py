@@ -16,6 +16,7 @@ from contactstudy.export.hexahedra import Hexahedra, rail_hexahedra, wheel_hexah
 from contactstudy.geometry.placement import Geometry
 from contactstudy.geometry.pose import Pose
 from contactstudy.profiles import wheel_curve
+from contactstudy.solids.mapped import on_mirror
 from contactstudy.solids.recipe import CellRecipe
 from contactstudy.solids.wheel_recipe import WheelRecipe
 from contactstudy.validation import raise_if
@@ -133,7 +134,7 @@ def press_mesh(
         rail=rail.elements,
         wheel=elements,
         symmetric=cell.symmetric,
-        symmetry=np.flatnonzero(cell.symmetric & (np.abs(nodes[:, 1]) < 1e-12)),
+        symmetry=on_mirror(nodes[:, 1:], cell.symmetric),
         rail_ends=rail.held,
         bore=ring.held + first,
         running_surface=_faces(rail.elements, under),

@@ -94,3 +94,8 @@ def join(*blocks: Array) -> tuple[Array, IntArray, list[IntArray]]:
             ).reshape(-1, 4)
         )
     return flat[first], np.vstack(quads), ids
+
+
+def on_mirror(nodes: Array, symmetric: bool) -> IntArray:
+    """Nodes (n, 2) on the plane y = 0 of a half mesh; none of a whole one."""
+    return np.flatnonzero(symmetric & (np.abs(nodes[:, 0]) < 1e-12))

@@ -14,7 +14,7 @@ from contactstudy.arrays import Array, IntArray
 from contactstudy.exceptions import InputError
 from contactstudy.profiles.rail import RailProfile
 from contactstudy.profiles.section import SectionProperties, section_properties
-from contactstudy.solids.mapped import Grading, along, join, transfinite
+from contactstudy.solids.mapped import Grading, along, join, on_mirror, transfinite
 from contactstudy.solids.section_outline import Outline, columns_of, fine_reach
 
 
@@ -45,9 +45,7 @@ class SectionMesh:
     @property
     def plane_of_symmetry(self) -> IntArray:
         """Nodes on y = 0 of a half section (empty for a whole one)."""
-        if not self.symmetric:
-            return np.empty(0, dtype=np.int64)
-        return np.flatnonzero(np.abs(self.nodes[:, 0]) < 1e-12)
+        return on_mirror(self.nodes, self.symmetric)
 
     def properties(self, poisson_ratio: float) -> SectionProperties:
         """Area, second moments and shear coefficients of the WHOLE section, as meshed."""

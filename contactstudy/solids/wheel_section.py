@@ -11,7 +11,7 @@ import numpy as np
 from contactstudy.arrays import Array, IntArray
 from contactstudy.profiles.curve import ProfileCurve
 from contactstudy.profiles.wheel_body import WheelDimensions
-from contactstudy.solids.mapped import Grading, along, graded, join, transfinite
+from contactstudy.solids.mapped import Grading, along, graded, join, on_mirror, transfinite
 from contactstudy.solids.rim import Rim, half_rim, whole_rim
 
 
@@ -42,9 +42,7 @@ class WheelSection:
     @property
     def plane_of_symmetry(self) -> IntArray:
         """Nodes on y = 0 of a half section; none of a whole one."""
-        if not self.symmetric:
-            return np.zeros(0, dtype=np.int64)
-        return np.flatnonzero(np.abs(self.nodes[:, 0]) < 1e-12)
+        return on_mirror(self.nodes, self.symmetric)
 
 
 def fine_arcs(centre: float, half_width: float, size: float, symmetric: bool = False) -> Array:
