@@ -18,11 +18,11 @@ from cyclopts import App, Parameter
 from rich.console import Console
 
 from contactstudy import __version__
-from contactstudy.exceptions import ContactStudyError
+from contactstudy.exceptions import ContactStudyError, InputError
 from contactstudy.process import ONE_THREAD
 
 if TYPE_CHECKING:
-    from contactstudy.study.kinds.positions.table import PositionsStudy
+    from contactstudy.study.kind import Study
 
 app = App(
     name="contactstudy",
@@ -58,17 +58,9 @@ def run(
     out
         Folder for the results; finished runs found there are not computed again.
     """
-    from contactstudy.study.kinds.positions.table import load_positions
     from contactstudy.study.loading import load_study
-    from contactstudy.study.runner import run_study
-    from contactstudy.study.terminal import TerminalReporter, print_summary
 
-    if (positions := load_positions(study, overrides)) is not None:
-        return _run_positions(positions, out)
-    loaded = load_study(study, overrides)
-    with TerminalReporter(_errors()) as reporter:
-        results = run_study(loaded, out, jobs, reporter)
-    print_summary(results, out, Console())
+    _run(load_study(study, overrides), out, jobs)
 
 
 @app.command
@@ -80,19 +72,12 @@ def check(study: str, *, overrides: Overrides = ()) -> None:
     study
         A TOML file, or the name of a shipped study.
     """
-    from contactstudy.study.kinds.passage.forecast import print_check
-    from contactstudy.study.kinds.positions.check import check_positions
-    from contactstudy.study.kinds.positions.table import load_positions
-    from contactstudy.study.kinds.positions.terminal import print_positions_check
     from contactstudy.study.loading import load_study
-    from contactstudy.study.terminal import TerminalReporter
+    from contactstudy.study.terminal import TerminalReporter, print_check
 
-    if (positions := load_positions(study, overrides)) is not None:
-        with TerminalReporter(_errors()) as reporter:
-            check_positions(positions, reporter=reporter)
-        print_positions_check(positions, Console())
-        return
-    print_check(load_study(study, overrides), Console())
+    loaded = load_study(study, overrides)
+    with TerminalReporter(_errors()) as reporter:
+        print_check(loaded, Console(), reporter)
 
 
 @app.command
@@ -111,24 +96,14 @@ def reproduce(
     out
         Folder for the results.
     """
-    from contactstudy.study.kinds.positions.table import PositionsStudy, load_positions
     from contactstudy.study.loading import load_study
-    from contactstudy.study.runner import run_study
-    from contactstudy.study.terminal import TerminalReporter, print_summary
 
     main_study = "point_vs_surface"
-    loaded = [
-        load_positions(name, overrides) or load_study(name, overrides)
-        for name in names or (main_study,)
-    ]
-    for study in loaded:
-        folder = out if study.name == main_study else out / study.name
-        if isinstance(study, PositionsStudy):
-            _run_positions(study, folder)
-            continue
-        with TerminalReporter(_errors()) as reporter:
-            results = run_study(study, folder, jobs, reporter)
-        print_summary(results, folder, Console())
+    loaded = [load_study(name, overrides) for name in dict.fromkeys(names or (main_study,))]
+    folders = [out if study.name == main_study else out / study.name for study in loaded]
+    _each_its_own(loaded, folders)
+    for study, folder in zip(loaded, folders, strict=True):
+        _run(study, folder, jobs)
 
 
 @app.command
@@ -201,14 +176,12 @@ def export(
     rail_length
         Length of the clamped rail, e.g. "0.6 m"; four rail cells when not given.
     """
-    from contactstudy.study.kinds.passage.export import export_press
+    from contactstudy.study.kind import find_kind
     from contactstudy.study.loading import load_study
 
-    made = export_press(load_study(study, overrides), out, run, load, rail_length)
-    print(
-        f"{out}: {len(made.mesh.nodes)} nodes, {len(made.mesh.elements)} elements, "
-        f"{made.load:.6g} N on {made.length:g} m of rail"
-    )
+    loaded = load_study(study, overrides)
+    options = {"run": run, "load": load, "rail_length": rail_length}
+    print(find_kind(loaded.kind).export(loaded, out, **options))
 
 
 @app.command
@@ -225,17 +198,30 @@ def studies() -> None:
         print(f"{name:<{width}}  {title}")
 
 
-def _run_positions(study: PositionsStudy, out: Path) -> None:
-    from contactstudy.study.kinds.positions.report import write_positions
-    from contactstudy.study.kinds.positions.run import run_positions
-    from contactstudy.study.kinds.positions.terminal import print_positions
-    from contactstudy.study.terminal import TerminalReporter
+def _run(study: Study, out: Path, jobs: int) -> None:
+    from contactstudy.driver import run_study
+    from contactstudy.study.terminal import TerminalReporter, print_results
 
     with TerminalReporter(_errors()) as reporter:
-        data = run_positions(study, out, reporter)
-        with reporter.stage("drawing and typesetting"):
-            write_positions(data, out)
-    print_positions(data, out, Console())
+        results = run_study(study, out, jobs, reporter)
+    print_results(results, out, Console())
+
+
+def _each_its_own(studies: Sequence[Study], folders: Sequence[Path]) -> None:
+    """Refuse studies whose results would overwrite each other's."""
+    taken, problems = dict[Path, str](), []
+    for study, folder in zip(studies, folders, strict=True):
+        own = {folder: f"study {study.name}"}
+        own |= {folder / Path(c).stem: f"companion of {study.name}" for c in study.companions}
+        problems += [
+            f"{name}: its results go to {path} like those of the {taken[path]}; "
+            "run it on its own with --out"
+            for path, name in own.items()
+            if path in taken
+        ]
+        taken |= own
+    if problems:
+        raise InputError(problems)
 
 
 def _errors() -> Console:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Iterator
+from collections import Counter
+from collections.abc import Iterator, Mapping
 from typing import Protocol
 
 
@@ -45,3 +46,45 @@ class Quiet:
     def stage(self, text: str) -> Iterator[None]:
         """Nothing."""
         yield
+
+
+class Bars:
+    """A `Reporter` whose tasks share bars: each moves by one as a task of it ends.
+
+    Parameters
+    ----------
+    reporter : Reporter
+    bars : mapping of str to str
+        Task -> its bar; a task that is not there has a bar of its own, in its steps.
+    """
+
+    def __init__(self, reporter: Reporter, bars: Mapping[str, str]) -> None:
+        self._reporter, self._bars = reporter, bars
+        self._all, self._ended, self._failed = Counter(bars.values()), Counter[str](), set[str]()
+        self.note, self.stage = reporter.note, reporter.stage
+
+    def begin(self, name: str, total: int) -> None:
+        """Show the bar of a task, once."""
+        bar = self._bars.get(name)
+        if bar is None:
+            self._reporter.begin(name, total)
+        elif bar not in self._ended:
+            self._ended[bar] = 0
+            self._reporter.begin(bar, self._all[bar])
+
+    def progress(self, name: str, done: int, total: int) -> None:
+        """Pass on the steps of a task with a bar of its own."""
+        if name not in self._bars:
+            self._reporter.progress(name, done, total)
+
+    def end(self, name: str, ok: bool) -> None:
+        """Move the bar of a task; end it with its last one."""
+        bar = self._bars.get(name)
+        if bar is None:
+            self._reporter.end(name, ok)
+            return
+        self._ended[bar] += 1
+        self._failed |= set() if ok else {bar}
+        self._reporter.progress(bar, self._ended[bar], self._all[bar])
+        if self._ended[bar] == self._all[bar]:
+            self._reporter.end(bar, bar not in self._failed)

@@ -2,33 +2,11 @@
 
 from pathlib import Path
 
-from contactstudy.figures import (
-    bands,
-    histories,
-    irregularity,
-    passing,
-    patch,
-    patch_history,
-    patch_status,
-    press,
-    section,
-    stress,
-)
-from contactstudy.plot.drawing import Drawing
 from contactstudy.plot.style import figure_style, save
+from contactstudy.study.kind import find_kind
 from contactstudy.study.results import StudyResults
 
-_FAMILIES = (
-    irregularity, histories, bands, patch, patch_status, stress, patch_history, section, press,
-    passing,
-)  # fmt: skip
-
-__all__ = ["Drawing", "drawings", "write_figures"]
-
-
-def drawings(results: StudyResults) -> list[Drawing]:
-    """All figures that these results can fill, in the order of the report."""
-    return [made for family in _FAMILIES for made in family.drawings(results)]
+__all__ = ["write_figures"]
 
 
 def write_figures(results: StudyResults, out_dir: Path) -> list[Path]:
@@ -51,7 +29,7 @@ def write_figures(results: StudyResults, out_dir: Path) -> list[Path]:
     folder = Path(out_dir) / "figures"
     written: list[Path] = []
     with figure_style():
-        for made in drawings(results):
+        for made in find_kind(results.kind).drawings(results):
             written += save(made.draw(), folder, made.name)
     for companion in results.companions:
         written += write_figures(companion, Path(out_dir) / companion.name)

@@ -44,7 +44,7 @@ class Frames:
 
 
 def write_animations(results: StudyResults, out_dir: Path) -> list[Path]:
-    """Write out_dir/figures/patch.gif for the runs that kept frames; companions beside.
+    """Write out_dir/figures/patch.gif for the runs that kept frames.
 
     With several such runs the files are patch_<run>.gif. Equal results give equal bytes.
     """
@@ -56,8 +56,6 @@ def write_animations(results: StudyResults, out_dir: Path) -> list[Path]:
         with writing(target) as path, figure_style():
             _animate(name, run, path)
         written.append(target)
-    for companion in results.companions:
-        written += write_animations(companion, Path(out_dir) / companion.name)
     return written
 
 

@@ -7,15 +7,21 @@ from matplotlib.ticker import FuncFormatter
 from numpy.typing import ArrayLike
 
 from contactstudy.figures.signals import position
+from contactstudy.irregularity.shown import (
+    IrregularityInfo,
+    Level,
+    SpectrumCurve,
+    from_dataset,
+)
 from contactstudy.plot.drawing import Drawing
 from contactstudy.plot.style import BLACK, BLUE, GREEN, SHADE, VERMILION, new_figure
 from contactstudy.plot.text import capital, exact, number
-from contactstudy.study.results import IrregularityInfo, Level, Spectrum, StudyResults
+from contactstudy.study.results import StudyResults
 
 
 def drawings(results: StudyResults) -> list[Drawing]:
     """Figs 1a and 1b, as far as the study has spectra and a profile."""
-    info = results.irregularity
+    info = irregularity_of(results)
     made = []
     if info.spectrum or info.estimate or info.measured:
         made.append(
@@ -33,14 +39,20 @@ def drawings(results: StudyResults) -> list[Drawing]:
     return made
 
 
-def density_at(spectrum: Spectrum, wavenumber: np.ndarray) -> np.ndarray:
+def irregularity_of(results: StudyResults) -> IrregularityInfo:
+    """What the results say of the irregularity."""
+    data = results.groups.get("irregularity")
+    return IrregularityInfo() if data is None else from_dataset(data)
+
+
+def density_at(spectrum: SpectrumCurve, wavenumber: np.ndarray) -> np.ndarray:
     """Density of `spectrum` at `wavenumber` (n,) in rad/m, interpolated on logarithmic axes."""
     keep = (spectrum.wavenumber > 0) & (spectrum.density > 0)
     x, y = np.log(spectrum.wavenumber[keep]), np.log(spectrum.density[keep])
     return np.exp(np.interp(np.log(wavenumber), x, y))
 
 
-def mean_level_difference(one: Spectrum, other: Spectrum) -> tuple[float, float, float]:
+def mean_level_difference(one: SpectrumCurve, other: SpectrumCurve) -> tuple[float, float, float]:
     """Mean of 10 lg(one/other) in dB over the logarithm of the wavenumber, and the band [rad/m].
 
     The band is what both spectra cover and declare valid; nan when there is none.
@@ -70,7 +82,7 @@ def comparisons(info: IrregularityInfo) -> list[str]:
     return sentences
 
 
-def _lowest(spectrum: Spectrum) -> float:
+def _lowest(spectrum: SpectrumCurve) -> float:
     return float(spectrum.wavenumber[spectrum.wavenumber > 0][0])
 
 
@@ -118,7 +130,7 @@ def _reciprocal(x: ArrayLike) -> ArrayLike:
     return 2 * np.pi / np.where(x > 0, x, np.inf)
 
 
-def _line(axes: Axes, spectrum: Spectrum, color: str, dashes: object, width: float) -> None:
+def _line(axes: Axes, spectrum: SpectrumCurve, color: str, dashes: object, width: float) -> None:
     x, y = spectrum.wavenumber, spectrum.density
     valid = (x >= spectrum.band[0]) & (x <= spectrum.band[1])
     axes.plot(x, np.where(y > 0, y, np.nan), color=color, lw=0.4 * width, alpha=0.7)

@@ -4,16 +4,16 @@ import shutil
 import tempfile
 from pathlib import Path
 
-from contactstudy.figures import drawings, write_figures
+from contactstudy.figures import write_figures
 from contactstudy.files import writing
-from contactstudy.report.content import content
+from contactstudy.report.content import Content, content
 from contactstudy.report.typesetting import typeset
+from contactstudy.study.kind import find_kind
 from contactstudy.study.results import StudyResults
 
 __all__ = ["write_report"]
 
 REPORT_FILE = "report.pdf"
-_TEMPLATE = ("template.typ", "model.typ", "limits.typ", "references.yml")
 
 
 def write_report(results: StudyResults, out_dir: Path, timings: bool = False) -> Path:
@@ -37,16 +37,22 @@ def write_report(results: StudyResults, out_dir: Path, timings: bool = False) ->
     """
     out_dir = Path(out_dir)
     target = out_dir / REPORT_FILE
+    data = content(results, timings)
     with tempfile.TemporaryDirectory() as folder, writing(target) as path:
         root = Path(folder)
         _gather(results, out_dir, root / "figures")
-        path.write_bytes(typeset(root, _TEMPLATE, content(results, timings)))
+        path.write_bytes(typeset(root, ("template.typ", *_chapters(data)), data))
     return target
+
+
+def _chapters(data: Content) -> list[str]:
+    """Files of the template that this report includes."""
+    return [data[key] for key in ("model", "limits") if data[key]] + ["references.yml"]
 
 
 def _gather(results: StudyResults, out_dir: Path, folder: Path) -> None:
     """Copy the PDF figures of a study and its companions, having drawn them if one is missing."""
-    names = [made.name for made in drawings(results)]
+    names = [made.name for made in find_kind(results.kind).drawings(results)]
     if not all((out_dir / "figures" / f"{name}.pdf").is_file() for name in names):
         write_figures(results, out_dir)
     folder.mkdir(parents=True, exist_ok=True)

@@ -3,19 +3,13 @@
 import math
 from typing import Any
 
-from contactstudy.report.quantity import quantity
-from contactstudy.report.tables import Block, table
-from contactstudy.study.kinds.passage.schema import SECTIONS
+from contactstudy.report.blocks import Block, table
+from contactstudy.report.quantity import pretty_unit, quantity
+from contactstudy.study.kind import find_kind
 from contactstudy.study.results import StudyResults
-from contactstudy.validation import entries
+from contactstudy.validation import Entry, entries
 
-_TITLES = {
-    "irregularity": "Irregularity",
-    "track": "Track (per rail)",
-    "vehicle": "Vehicle (per wheel)",
-    "journey": "Journey",
-    "solid": "Solid rail and wheel",
-}
+_LONG = 8  # values of a list
 _NAMES = {
     "from": "wheel from",
     "to": "wheel to",
@@ -38,32 +32,34 @@ _NAMES = {
 
 
 def parameter_tables(results: StudyResults) -> list[Block]:
-    """One table for each part of the resolved study except its runs."""
-    made = []
-    for section, title in _TITLES.items():
-        values = results.config.get(section)
-        if values:
-            rows = [_parameter(results, section, key, value) for key, value in values.items()]
-            made.append(
-                table(
-                    ["Parameter", "Value", "Unit", "Given by"],
-                    [[r[0], r[1], r[2], r[3]] for r in rows],
-                    f"{title}.",
-                )
-                | {"size": 8.5}
-            )
+    """One table for each table of the resolved study that its kind has a title for."""
+    kind, made = find_kind(results.kind), []
+    for section, title in kind.titles.items():
+        if values := results.config.get(section):
+            known, rows = entries(kind.tables[section]), []
+            for key, value in values.items():
+                shown, unit = _shown(value, results.units.get(f"{section}.{key}", ""))
+                name = _NAMES.get(key, key.replace("_", " "))
+                rows.append([name, shown, unit, _origin(known.get(key), value)])
+            columns = ["Parameter", "Value", "Unit", "Given by"]
+            made.append(table(columns, rows, f"{title}.", 1) | {"size": 8.5})
             made[-1]["columns"][2]["align"] = made[-1]["columns"][3]["align"] = "left"
     return made
 
 
-def _parameter(results: StudyResults, section: str, key: str, value: Any) -> list[str]:
-    shown, unit = quantity(value, results.units.get(f"{section}.{key}", ""))
-    return [_NAMES.get(key, key.replace("_", " ")), shown, unit, _origin(section, key, value)]
+def _shown(value: Any, unit: str) -> tuple[str, str]:
+    """Value and unit; of a long list its ends."""
+    if isinstance(value, list) and len(value) > _LONG:
+        ends = [quantity(v)[0] for v in (value[0], value[-1])]
+        return f"{len(value)} values, {ends[0]} … {ends[1]}", pretty_unit(unit)
+    return quantity(value, unit)
 
 
-def _origin(section: str, key: str, value: Any) -> str:
+def _origin(entry: Entry | None, value: Any) -> str:
     """Whether a value is the program's default or was set by the study."""
-    parameter = entries(SECTIONS[section])[key].parameter
+    parameter = entry.parameter if entry else None
+    if parameter is None:
+        return "study"
     defaults = parameter.by.defaults.values() if parameter.by else [parameter.default]
     return "default" if any(_equal(default, value) for default in defaults) else "study"
 

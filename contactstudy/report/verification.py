@@ -10,8 +10,8 @@ from contactstudy.files import writing
 from contactstudy.plot.draw import draw
 from contactstudy.plot.style import figure_style, save
 from contactstudy.plot.text import exact
+from contactstudy.report.blocks import Block, table, text
 from contactstudy.report.quantity import percent, pretty_unit, rounded
-from contactstudy.report.tables import Block, table, text
 from contactstudy.report.typesetting import typeset
 from contactstudy.verification.check import Cell, Check, ResultTable
 from contactstudy.verification.outcome import CaseOutcome

@@ -6,12 +6,15 @@ import tomllib
 from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 from contactstudy.exceptions import InputError
 from contactstudy.resources import resource
-from contactstudy.study.kinds.passage.reading import load_passage
-from contactstudy.study.kinds.passage.schema import Study
+from contactstudy.study.kind import kind_of_file
 from contactstudy.validation import did_you_mean
+
+# of a study's results, beside which those of its companions lie
+_FOLDERS = ("runs", "figures", "fields")
 
 
 def shipped_studies() -> dict[str, Path]:
@@ -40,10 +43,8 @@ def find_study(study: str | Path) -> Path:
     )
 
 
-def load_study(
-    study: str | Path, overrides: Iterable[str] = (), main: Study | None = None
-) -> Study:
-    """Read a study file, apply overrides, and check it.
+def load_study(study: str | Path, overrides: Iterable[str] = (), main: Any = None) -> Any:
+    """Read a study file of any kind, apply overrides, and check it.
 
     Parameters
     ----------
@@ -52,8 +53,13 @@ def load_study(
     overrides : iterable of str
         ``key=value`` with dotted keys; values as in TOML, quotes around text may be left out.
     main : Study, optional
-        The study that this one accompanies: track, vehicle, journey and solid are taken from
-        it where the file has no such table, so that both are about the same wheel and rail.
+        The study that this one accompanies: a passage takes track, vehicle, journey and solid
+        from it where the file has no such table, so that both are about the same wheel and rail.
+
+    Returns
+    -------
+    Study
+        Of the kind that the file's tables tell, see `contactstudy.study.kind`.
 
     Raises
     ------
@@ -67,15 +73,12 @@ def load_study(
         raise InputError(f"{path}: is not a TOML file ({error})") from error
     except OSError as error:
         raise InputError(f"{path}: cannot be read ({error.strerror})") from error
-    if "positions" in data:
-        raise InputError(
-            f"study {study}: is a study of positions (table [positions]); only "
-            "'contactstudy check', 'run' and 'reproduce' take it"
-        )
-    return load_passage(path, data, overrides, main)
+    kind = kind_of_file(data)
+    same = main is not None and main.kind == kind.name
+    return kind.load(path, data, overrides, main if same else None)
 
 
-def load_companions(study: Study) -> list[Study]:
+def load_companions(study: Any) -> list[Any]:
     """Studies that accompany a study, on its track; their own companions are left out.
 
     Raises
@@ -84,11 +87,21 @@ def load_companions(study: Study) -> list[Study]:
         Listing every problem of every companion.
     """
     found, problems = [], []
+    taken = dict.fromkeys(_FOLDERS, "a folder that every study has")
+    taken[study.name] = "the study that it accompanies"
     for name in study.companions:
         try:
-            found.append(replace(load_study(name, main=study), companions=()))
+            made = replace(load_study(name, main=study), companions=())
         except InputError as error:
             problems += [f"companion {name}: {problem}" for problem in error.problems]
+            continue
+        if made.name in taken:
+            problems.append(
+                f"companion {name}: is called {made.name} like {taken[made.name]}; its results "
+                "go into a folder of that name, so give its file another one"
+            )
+        taken[made.name] = f"the companion {name}"
+        found.append(made)
     if problems:
         raise InputError(problems)
     return found

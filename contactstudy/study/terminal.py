@@ -1,13 +1,13 @@
-"""Progress bars and the summary that a command prints."""
+"""What commands print: progress bars, the resolved values of a study, and where results are."""
 
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from types import TracebackType
+from typing import Any
 
-from rich.box import SIMPLE
 from rich.console import Console
 from rich.progress import (
     BarColumn,
@@ -21,6 +21,9 @@ from rich.progress import (
 )
 from rich.table import Table
 
+from contactstudy.reporter import Reporter
+from contactstudy.study.kind import Study, find_kind
+from contactstudy.study.loading import load_companions
 from contactstudy.study.results import StudyResults
 
 
@@ -88,34 +91,51 @@ class TerminalReporter:
             self._bars.update(task, completed=1, total=1)
 
 
-_CAPTION = "error: relative L2 of the contact force, of the total and of its dynamic part"
-
-
-def print_summary(results: StudyResults, out_dir: Path, console: Console) -> None:
-    """Print what each run cost, how far it is from the reference, and where everything is."""
-    runs = results.metrics.get("runs", {})
-    if runs:
-        table = Table(title=results.title, box=SIMPLE, caption=_CAPTION, collapse_padding=True)
-        table.add_column("run", no_wrap=True)
-        for heading in ("dofs", "steps", "set-up s", "steps s", "MB", "error", "dynamic"):
-            table.add_column(heading, justify="right", no_wrap=True)
-        for name, run in runs.items():
-            force = results.metrics["comparisons"].get(name, {}).get("contact_force", {})
-            table.add_row(
-                name,
-                str(run["dofs"]),
-                str(run["steps"]),
-                f"{run['seconds']['setup']:.1f}",
-                f"{run['seconds']['stepping']:.1f}",
-                "" if run["peak_memory_mb"] is None else f"{run['peak_memory_mb']:.0f}",
-                _percent(force.get("relative_l2"), name == results.reference),
-                _percent(force.get("relative_l2_dynamic"), name == results.reference),
-            )
-        console.print(table)
+def print_results(results: StudyResults, out_dir: Path, console: Console) -> None:
+    """Print what the kind of study shows of its results, and where everything is."""
+    for item in find_kind(results.kind).summary(results):
+        console.print(item)
     console.print(f"results, figures and report: {out_dir}", markup=False, soft_wrap=True)
 
 
-def _percent(value: float | None, reference: bool) -> str:
-    if reference:
-        return "ref."
-    return "" if value is None else f"{100 * value:.2f} %"
+def print_check(study: Study, console: Console, reporter: Reporter) -> None:
+    """Print the resolved values of a study and what it will need; runs nothing.
+
+    Raises
+    ------
+    InputError
+        When an input file or a companion's study file cannot be used.
+    """
+    # whatever may be refused comes before the first line
+    studies = (study, *load_companions(study))
+    inputs = [find_kind(one.kind).read_inputs(one) for one in studies]
+    needs = find_kind(study.kind).check(study, studies[1:], reporter)
+    console.print(f"[bold]{study.title}[/bold] ({study.name})")
+    if study.description:
+        console.print(" ".join(study.description.split()), markup=False)
+    for warning in inputs[0].warnings:
+        console.print(f"warning: {warning}", markup=False, soft_wrap=True)
+    units = study.units()
+    values = Table("key", "value", "SI unit", show_header=True)
+    for key, value in _flat(study.config()):
+        values.add_row(key, _text(value), units.get(key, ""))
+    console.print(values)
+    for item in needs:
+        console.print(item, soft_wrap=isinstance(item, str))
+
+
+def _flat(tables: Mapping[str, Any], path: str = "") -> Iterator[tuple[str, Any]]:
+    for key, value in tables.items():
+        full = f"{path}.{key}" if path else key
+        if isinstance(value, dict):
+            yield from _flat(value, full)
+        else:
+            yield full, value
+
+
+def _text(value: Any) -> str:
+    if isinstance(value, float):
+        return f"{value:.10g}"
+    if isinstance(value, list):
+        return ", ".join(_text(item) for item in value)
+    return str(value)

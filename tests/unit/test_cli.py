@@ -14,12 +14,13 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from contactstudy import cli
+from contactstudy import cli, driver
+from contactstudy.figures.irregularity import irregularity_of
 from contactstudy.irregularity import paper_spectrum
 from contactstudy.solids.bodies import rail_body
 from contactstudy.solids.cache import entry_path
 from contactstudy.store import DATASET, Store
-from contactstudy.study import compute, runner
+from contactstudy.study import compute
 from contactstudy.study.kinds.passage import build
 from contactstudy.study.kinds.passage.roughness import describe
 from contactstudy.study.loading import load_study
@@ -48,12 +49,13 @@ def render(results, out_dir, reporter):
     """Stands for figures and report, which have their own tests."""
     (out_dir / "figures").mkdir(exist_ok=True)
     (out_dir / "report.pdf").write_bytes(b"%PDF")
+    return [out_dir / "report.pdf"]
 
 
 @pytest.fixture
 def short(tmp_path, monkeypatch):
     """Study file; drawing is left out."""
-    monkeypatch.setattr(runner, "render", render)
+    monkeypatch.setattr(driver, "render", render)
     path = tmp_path / "short.toml"
     path.write_text(SHORT)
     return path
@@ -147,7 +149,7 @@ def finished(tmp_path_factory):
     folder = tmp_path_factory.mktemp("finished")
     (folder / "short.toml").write_text(SHORT)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(runner, "render", render)
+        patch.setattr(driver, "render", render)
         assert cli.main(["run", str(folder / "short.toml"), "--out", str(folder / "out")]) == 0
     return folder / "out"
 
@@ -161,7 +163,7 @@ def test_what_a_run_writes(out):
     results = read_results(out)
     assert list(results.runs) == ["point", "hertz"] and results.reference == "point"
     assert results.title == "A short one" and results.provenance["seed"] == 1
-    assert results.irregularity.spectrum.band == (0.08, 20.0)
+    assert irregularity_of(results).spectrum.band == (0.08, 20.0)
     force = results.runs["hertz"].contact_force
     assert force.attrs["units"] == "N" and "position" in force.coords
     assert float(force[0]) == pytest.approx(6869 * 9.81)
@@ -174,7 +176,7 @@ def test_what_a_run_writes(out):
 def test_a_second_call_computes_and_draws_nothing(capfd, short, out, monkeypatch):
     before = {p: p.read_bytes() for p in out.rglob("*") if p.is_file()}
     monkeypatch.setattr(compute, "run_tasks", lambda *a, **k: pytest.fail("must not compute"))
-    monkeypatch.setattr(runner, "render", lambda *a, **k: pytest.fail("must not draw"))
+    monkeypatch.setattr(driver, "render", lambda *a, **k: pytest.fail("must not draw"))
     assert cli.main(["run", str(short), "--out", str(out)]) == 0
     assert "up to date" in capfd.readouterr().err
     assert before == {p: p.read_bytes() for p in out.rglob("*") if p.is_file()}
@@ -214,10 +216,10 @@ def test_a_run_that_breaks_down_keeps_the_others(capfd, short, tmp_path, monkeyp
         "from contactstudy.exceptions import NumericalError\n"
         "from contactstudy.study import compute\n"
         "execute = compute.execute\n"
-        "def breaking(study, run, store, key, progress):\n"
+        "def breaking(computing, study, run, *rest):\n"
         "    if run == 'point':\n"
         "        raise NumericalError('step 7 at X = 1.3 m: the force is not finite')\n"
-        "    execute(study, run, store, key, progress)\n"
+        "    execute(computing, study, run, *rest)\n"
     )
     monkeypatch.syspath_prepend(str(tmp_path))
     breaking = importlib.import_module("breaking")
@@ -326,5 +328,5 @@ def test_reproduce_puts_named_studies_below_the_folder(short, tmp_path, monkeypa
     monkeypatch.chdir(tmp_path)
     assert cli.main(["reproduce", "paper_irregularity"]) == 0
     results = read_results(tmp_path / "reports/out/paper_irregularity")
-    assert not results.runs and results.irregularity.estimate is not None
+    assert not results.runs and irregularity_of(results).estimate is not None
     assert "paper_irregularity" in capfd.readouterr().out

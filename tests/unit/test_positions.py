@@ -1,22 +1,25 @@
 """Studies of positions: the table, the command, kept positions, results, report."""
 
 import csv
+import json
 import math
 import shutil
 import subprocess
 
 import numpy as np
 import pytest
-import xarray as xr
 
 from contactstudy import cli
+from contactstudy.driver import run_study
 from contactstudy.exceptions import InputError, NumericalError
 from contactstudy.halfspace.hertz import contact_modulus, hertz_contact
 from contactstudy.profiles.named import wheel_curve
-from contactstudy.study.kinds.positions import run as positions_run
+from contactstudy.reporter import Quiet
 from contactstudy.study.kinds.positions.check import check_positions
-from contactstudy.study.kinds.positions.run import run_positions
-from contactstudy.study.kinds.positions.table import Positions, load_positions
+from contactstudy.study.kinds.positions.kind import POSITIONS
+from contactstudy.study.kinds.positions.table import Positions
+from contactstudy.study.loading import load_study
+from contactstudy.study.results import open_results
 
 HERTZ = """
 title = "A cylinder on the crown"
@@ -54,12 +57,12 @@ def test_series():
 
 
 def test_shipped_study_is_the_benchmark():
-    study = load_positions("manchester")
+    study = load_study("manchester")
     assert len(study.positions) == 21 and study.table.wheels == ("left", "right")
     assert study.positions[10][:2] == (0.005, 0.012)
     assert study.table.rail_inclination == math.atan(1 / 40)
     assert study.modulus == pytest.approx(82e9 / 0.72)
-    assert load_positions("smooth_rail") is None
+    assert study.kind == "positions" and load_study("smooth_rail").kind == "passage"
 
 
 def test_every_problem_at_once(tmp_path):
@@ -69,16 +72,16 @@ def test_every_problem_at_once(tmp_path):
         'wheel_profile = "S1003"\nrail_profile = "gone.csv"\nrail_inclinaton = "1:40"\n'
     )
     with pytest.raises(InputError) as error:
-        load_positions(path)
+        load_study(path)
     text = str(error.value)
     assert "journey: unknown key" in text
     assert "rail_inclinaton: unknown key (did you mean 'rail_inclination'?)" in text
     path.write_text(path.read_text().replace('rail_inclinaton = "1:40"\n', 'load = "5 kg"\n'))
     with pytest.raises(InputError, match="wrong unit 'kg'"):
-        load_positions(path)
+        load_study(path)
     path.write_text(path.read_text().replace('load = "5 kg"\n', ""))
     with pytest.raises(InputError) as error:
-        load_positions(path)
+        load_study(path)
     text = str(error.value)
     assert "positions.yaw: has 3 values; must have one, or one for each of the 2" in text
     assert "positions.wheel_profile" in text and "S1003" in text
@@ -86,8 +89,8 @@ def test_every_problem_at_once(tmp_path):
 
 
 def test_cylinder_on_the_crown_is_hertz(study, tmp_path):
-    loaded = load_positions(study)
-    data = run_positions(loaded, tmp_path / "out")
+    loaded = load_study(study)
+    data = run_study(loaded, tmp_path / "out", jobs=1).runs["right"]
     exact = hertz_contact(67.4e3, contact_modulus(), 0.46, 0.3)
     print(f"Hertz {exact}\ncomputed {data.isel(row=0)}")
     assert data.sizes["row"] == 2
@@ -99,28 +102,39 @@ def test_cylinder_on_the_crown_is_hertz(study, tmp_path):
         assert float(data.y[row]) == pytest.approx(0.0, abs=1e-6)
 
 
-def test_positions_are_kept(study, tmp_path, monkeypatch):
-    loaded, calls = load_positions(study), []
-    press = positions_run.press_wheel
+class Counting(Quiet):
+    """Reporter that counts presses."""
 
-    def counted(*arguments, **more):
-        calls.append(1)
-        return press(*arguments, **more)
+    presses = 0
 
-    monkeypatch.setattr(positions_run, "press_wheel", counted)
-    out = tmp_path / "out"
-    first = run_positions(loaded, out)
+    def progress(self, name, done, total):
+        self.presses = done if name == "positions" else self.presses
+
+
+def test_positions_are_kept(study, tmp_path):
+    loaded, out = load_study(study), tmp_path / "out"
+
+    def run():
+        reporter = Counting()
+        return run_study(loaded, out, 2, reporter), reporter.presses
+
+    first, presses = run()
     before = (out / "result.nc").read_bytes()
-    run_positions(loaded, out)
-    assert len(calls) == 2 and (out / "result.nc").read_bytes() == before
-    kept = sorted((out / "runs").glob("*.json"))[0]
+    assert presses == 2 and run()[1] == 0 and (out / "result.nc").read_bytes() == before
+    kept = sorted((out / "runs").glob("right_*.json"))[0]
     kept.write_text(kept.read_text()[:-30])  # damaged
-    assert run_positions(loaded, out).equals(first) and len(calls) == 3
-    read = xr.load_dataset(out / "result.nc", engine="h5netcdf")
+    (out / "result.nc").unlink()
+    again, presses = run()
+    assert again.runs["right"].equals(first.runs["right"]) and presses == 1
+    assert (out / "result.nc").read_bytes() == before
+    read = open_results(out)["right"]
     assert read.peak_pressure.attrs["units"] == "Pa" and list(read.wheel.values) == ["right"] * 2
     with (out / "patches.csv").open() as stream:
         rows = list(csv.DictReader(stream))
     np.testing.assert_allclose([float(r["approach [m]"]) for r in rows], read.approach)
+    metrics = json.loads((out / "metrics.json").read_text())["runs"]["right"]
+    assert metrics["patches"] == 2 and metrics["largest"]["area"] == float(read.area.max())
+    assert metrics["seconds"]["stepping"] > 0
 
 
 def test_a_worn_profile_from_a_file_beside_the_study(tmp_path):
@@ -133,27 +147,31 @@ def test_a_worn_profile_from_a_file_beside_the_study(tmp_path):
         path.write_text(
             f'[positions]\nroll = 0\nwheels = ["left"]\nwheel_profile = "{profile}"\ncell = 5e-4\n'
         )
-        found.append(run_positions(load_positions(path), tmp_path / "out"))
-    drawn, worn = found
+        found.append(run_study(load_study(path), tmp_path / "out"))
+    drawn, worn = (results.runs["left"] for results in found)
     print(
         f"approach: drawn {float(drawn.approach[0]):.6e}, its points {float(worn.approach[0]):.6e}"
     )
     assert float(worn.approach[0]) == pytest.approx(float(drawn.approach[0]), rel=5e-3)
-    assert '"worn.csv"' in worn.attrs["config"]  # and no folder of this machine
+    assert found[1].config["positions"]["wheel_profile"] == "worn.csv"  # no folder of this machine
+    assert list(found[1].provenance["files"]) == ["worn.csv"]
 
 
 def test_a_press_that_breaks_down_says_where(study, tmp_path, monkeypatch):
-    press, calls = positions_run.press_wheel, []
-
-    def breaking(*arguments, **more):
-        calls.append(1)
-        if len(calls) == 2:
-            raise NumericalError("does not settle")
-        return press(*arguments, **more)
-
-    monkeypatch.setattr(positions_run, "press_wheel", breaking)
-    with pytest.raises(NumericalError, match="right wheel at 1 mm and 0 mrad: does not settle"):
-        run_positions(load_positions(study), tmp_path / "out")
+    (tmp_path / "breaking_press.py").write_text(
+        "from contactstudy.exceptions import NumericalError\n"
+        "from contactstudy.study.kinds.positions import press\n"
+        "def breaking(*_, **__):\n"
+        "    raise NumericalError('does not settle')\n"
+        "def press_one(study, name, progress):\n"
+        "    if name == 'right_002':\n"
+        "        press.press_wheel = breaking\n"
+        "    return press.press_one(study, name, progress)\n"
+    )
+    monkeypatch.syspath_prepend(str(tmp_path))
+    monkeypatch.setattr(type(POSITIONS), "computing", "breaking_press:press_one")
+    with pytest.raises(NumericalError, match=r"^right wheel at 1 mm and 0 mrad: does not settle"):
+        run_study(load_study(study), tmp_path / "out")
     assert len(list((tmp_path / "out" / "runs").glob("*.json"))) == 1  # the first is kept
 
 
@@ -181,7 +199,7 @@ def test_no_roll_at_rest_is_found_by_the_check(tmp_path):
     path = tmp_path / "far.toml"
     path.write_text(HERTZ.replace("roll = 0\n", "").replace('"1 mm"]', '"90 mm"]'))
     with pytest.raises(InputError, match=r"positions\.lateral = 90 mm with a yaw of 0 mrad: "):
-        check_positions(load_positions(path))
+        check_positions(load_study(path))
 
 
 def test_commands(study, tmp_path, capsys):

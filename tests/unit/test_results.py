@@ -5,11 +5,16 @@ import pytest
 import xarray as xr
 
 from contactstudy.exceptions import InputError
-from contactstudy.study.results import (
+from contactstudy.irregularity.shown import (
     IrregularityInfo,
     Level,
-    Spectrum,
+    SpectrumCurve,
+    from_dataset,
+    to_dataset,
+)
+from contactstudy.study.results import (
     StudyResults,
+    open_results,
     read_results,
     write_results,
 )
@@ -28,7 +33,7 @@ def a_run(scale: float = 1.0) -> xr.Dataset:
 def results(**changes: object) -> StudyResults:
     k = np.linspace(0.1, 20, 7)
     info = IrregularityInfo(
-        spectrum=Spectrum("eq. (3)", k, 1 / k**2, (0.08, 20.0)),
+        spectrum=SpectrumCurve("eq. (3)", k, 1 / k**2, (0.08, 20.0)),
         profile=Level("seed 1", np.arange(5.0), np.arange(5.0) * 1e-3),
     )
     parts: dict = {
@@ -40,14 +45,14 @@ def results(**changes: object) -> StudyResults:
         "runs": {"surface": a_run(), "point": a_run(1.05)},
         "reference": "surface",
         "metrics": {"runs": {"point": {"dofs": 3}}},
-        "irregularity": info,
+        "groups": {"irregularity": to_dataset(info)},
         "provenance": {"seed": 1},
     }
     return StudyResults(**(parts | changes))
 
 
 def test_round_trip_with_a_companion(tmp_path):
-    inner = results(name="smooth", runs={}, reference=None, irregularity=IrregularityInfo())
+    inner = results(name="smooth", runs={}, reference=None, groups={})
     outer = results(companions=(inner,))
     write_results(outer, tmp_path)
     write_results(inner, tmp_path / "smooth")
@@ -58,10 +63,28 @@ def test_round_trip_with_a_companion(tmp_path):
     np.testing.assert_array_equal(back.runs["point"].contact_force, a_run(1.05).contact_force)
     assert back.runs["point"].contact_force.attrs == {"units": "N", "long_name": "force"}
     assert "position" in back.runs["point"].coords
-    assert back.irregularity.spectrum.band == (0.08, 20.0)
-    np.testing.assert_array_equal(back.irregularity.profile.level, np.arange(5) * 1e-3)
-    assert back.irregularity.measured is None
+    info = from_dataset(back.groups["irregularity"])
+    assert info.spectrum.band == (0.08, 20.0)
+    np.testing.assert_array_equal(info.profile.level, np.arange(5) * 1e-3)
+    assert info.measured is None
     assert back.companions[0].name == "smooth" and back.companions[0].reference is None
+
+
+def test_results_open_as_one_tree_that_shows_its_runs(tmp_path):
+    write_results(results(), tmp_path)
+    tree = open_results(tmp_path)
+    assert list(tree.children) == ["irregularity", "surface", "point"]
+    assert tree["point/contact_force"].attrs["units"] == "N" and tree.attrs["title"]
+    for shown in (repr(tree), repr(results()), results()._repr_html_()):
+        assert "surface" in shown and "contact_force" in shown
+
+
+def test_runs_of_variants_are_groups_of_groups(tmp_path):
+    runs = {f"{variant}/{run}": a_run() for variant in ("a", "b") for run in ("one", "two")}
+    write_results(results(runs=runs, reference=None), tmp_path)
+    back = read_results(tmp_path)
+    assert list(back.runs) == list(runs) and list(back.groups) == ["irregularity"]
+    assert list(open_results(tmp_path)["a"].children) == ["one", "two"]
 
 
 def test_times_stay_out_of_the_result_file_and_bytes_repeat(tmp_path):

@@ -7,7 +7,7 @@ import pytest
 
 from contactstudy.exceptions import InputError
 from contactstudy.study.kinds.passage.reading import parse_study
-from contactstudy.study.kinds.positions.table import load_positions
+from contactstudy.study.kinds.positions.kind import POSITIONS
 from contactstudy.study.loading import (
     find_study,
     load_companions,
@@ -61,9 +61,6 @@ def test_the_shipped_comparison_is_the_issues():
 
 def test_every_shipped_study_loads():
     for name in shipped_studies():
-        if (positions := load_positions(name)) is not None:
-            assert positions.name == name and positions.title
-            continue
         overrides = ["irregularity.file=level.csv"] if name == "measured_level" else []
         study = load_study(name, overrides)
         assert study.name == name and study.title
@@ -313,13 +310,13 @@ def test_cells_fit_the_supports_unless_their_length_is_given(track, length):
 def test_a_name_that_looks_like_a_number_stays_a_name():
     study = load_study("s1002_inclined", ["wheelset.rail_profile=60E1", "track.rail=60E1"])
     assert (study.wheelset.rail_profile, study.track.rail.profile_name) == ("60E1", "60E1")
-    positions = load_positions("manchester", ["positions.rail_profile=60E1"])
-    assert positions is not None and positions.table.rail_profile == "60E1"
+    positions = load_study("manchester", ["positions.rail_profile=60E1"])
+    assert positions.table.rail_profile == "60E1"
 
 
 def test_a_study_of_positions_is_named_where_none_is_meant():
     with pytest.raises(InputError, match=r"is a study of positions \(table \[positions\]\)"):
-        load_study("manchester")
+        POSITIONS.export(load_study("manchester"), Path("press.inp"))
 
 
 @pytest.mark.parametrize(

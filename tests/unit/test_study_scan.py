@@ -63,15 +63,16 @@ def test_scans_take_the_place_of_the_drawn_surfaces(folder):
 def test_a_plan_holds_the_content_and_the_residuals(folder, tmp_path):
     study = load_study(folder / "scanned.toml")
     plan = plan_study(study, tmp_path / "out")
-    assert {"rail.stl", "wheel.stl"} <= set(plan.files)
-    assert plan.inputs["scan"]["rail"] == "rail.stl"
-    assert plan.inputs["scan"]["rail_residual_rms"] == pytest.approx(2e-6, rel=0.2)
+    assert {"rail.stl", "wheel.stl"} <= set(plan.inputs.files)
+    assert plan.inputs.config["scan"]["rail"] == "rail.stl"
+    assert plan.inputs.config["scan"]["rail_residual_rms"] == pytest.approx(2e-6, rel=0.2)
     assert sum("residual" in warning for warning in plan.warnings) == 2
-    before = plan.run_key("surface")
+    before = {piece.label: piece.key for piece in plan.pieces}
     mesh = MESHES["rail"]
     shifted = np.asarray(mesh.vertices) + np.array([0.0, 1e-5, 0.0])
     trimesh.Trimesh(1e3 * shifted, mesh.faces, process=False).export(folder / "rail.stl")
-    assert plan_study(study, tmp_path / "out").run_key("surface") != before
+    after = {p.label: p.key for p in plan_study(study, tmp_path / "out").pieces}
+    assert after["surface"] != before["surface"]
 
 
 def test_a_hole_under_the_contact_stops_the_plan(folder, tmp_path):

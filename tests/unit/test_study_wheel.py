@@ -70,10 +70,12 @@ def test_own_section_file(tmp_path: Path) -> None:
     )
     written(tmp_path, solid='wheel_section = "mine.toml"')
     before = plan_study(load_study(path), tmp_path)
-    assert before.inputs["solid"]["wheel_section"] == "mine.toml"
+    assert before.inputs.config["solid"]["wheel_section"] == "mine.toml"
     own_wheel(tmp_path, width=60.0)
     after = plan_study(load_study(path), tmp_path)
-    assert all(before.run_key(run) != after.run_key(run) for run in "abc")
+    for one, other in zip(before.pieces, after.pieces, strict=True):
+        assert one.label == other.label and one.key != other.key
+    assert [piece.label for piece in after.pieces] == list("abc")
     assert build.wheel_recipe(load_study(path)).dimensions.rim_outside == 0.060
 
 

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from contactstudy.irregularity.shown import IrregularityInfo, Level, SpectrumCurve, to_dataset
 from contactstudy.study.kinds.passage.metrics import study_metrics
-from contactstudy.study.results import IrregularityInfo, Level, Spectrum, StudyResults
+from contactstudy.study.results import StudyResults
 
 SPEED, DT, STATIC = 300 / 3.6, 1e-4, 67.4e3
 
@@ -155,10 +156,14 @@ def made_study(rough=1.0, name="point_vs_surface", companions=()):
     noise = rng.gamma(8, 1 / 8, k.size)
     r = np.cos(np.outer(x, w) + rng.uniform(0, 6.28, w.size)) @ np.full(w.size, 1e-4)
     info = IrregularityInfo(
-        spectrum=Spectrum("eq. (3), Table 1", w, paper_density(w), (0.08, 20.0)),
-        estimate=Spectrum("generated profile, Welch", k, paper_density(k) * noise, (0.3, 20.0)),
+        spectrum=SpectrumCurve("eq. (3), Table 1", w, paper_density(w), (0.08, 20.0)),
+        estimate=SpectrumCurve(
+            "generated profile, Welch", k, paper_density(k) * noise, (0.3, 20.0)
+        ),
         profile=Level("seed 1", x, r),
-        measured=Spectrum("measured level", k[:200], 0.3 * paper_density(k[:200]), (0.15, 2.5)),
+        measured=SpectrumCurve(
+            "measured level", k[:200], 0.3 * paper_density(k[:200]), (0.15, 2.5)
+        ),
     )
     runs = {n: made_run(i, rough, n) for i, n in enumerate(CONFIG["runs"])}
     return StudyResults(
@@ -170,7 +175,7 @@ def made_study(rough=1.0, name="point_vs_surface", companions=()):
         runs=runs,
         reference="surface",
         metrics=made_metrics(runs, "surface"),
-        irregularity=info if rough else IrregularityInfo(),
+        groups={"irregularity": to_dataset(info if rough else IrregularityInfo())},
         provenance={
             "seed": 1,
             "hash": "0123456789abcdef" * 4,

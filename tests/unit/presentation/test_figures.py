@@ -3,13 +3,14 @@
 import numpy as np
 import pytest
 
-from contactstudy.figures import drawings, write_figures
+from contactstudy.figures import write_figures
 from contactstudy.figures.irregularity import mean_level_difference
 from contactstudy.figures.passing_components import all_passing
 from contactstudy.figures.patch import patch_of
+from contactstudy.irregularity.shown import SpectrumCurve
 from contactstudy.plot.style import figure_style, run_styles, save
 from contactstudy.plot.text import exact, number
-from contactstudy.study.results import Spectrum
+from contactstudy.study.kinds.passage.drawings import drawings
 
 LABELS = {
     "irregularity_spectrum": {"Angular wavenumber ω (rad/m)", "two-sided (m²/(rad/m))"},
@@ -125,8 +126,8 @@ def test_captions_change_with_the_data(results, by_name):
 
 def test_level_difference_of_spectra_is_the_factor_between_them():
     w = np.geomspace(0.1, 10, 50)
-    one = Spectrum("one", w, 1e-7 / w**2, (0.2, 8.0))
-    half = Spectrum("half", w, 0.5e-7 / w**2, (0.1, 5.0))
+    one = SpectrumCurve("one", w, 1e-7 / w**2, (0.2, 8.0))
+    half = SpectrumCurve("half", w, 0.5e-7 / w**2, (0.1, 5.0))
     mean, low, high = mean_level_difference(half, one)
     assert (mean, low, high) == pytest.approx((10 * np.log10(0.5), 0.2, 5.0))
 

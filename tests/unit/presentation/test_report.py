@@ -5,14 +5,14 @@ from pathlib import Path
 
 import pytest
 
-from contactstudy.figures import drawings
 from contactstudy.plot.style import figure_style, new_figure, save
 from contactstudy.report import write_report
-from contactstudy.report.abstract import GRADES, abstract, grade, papers_scheme
 from contactstudy.report.content import content
 from contactstudy.report.parameters import parameter_tables
 from contactstudy.report.quantity import fixed, percent, quantity
 from contactstudy.resources import resource
+from contactstudy.study.kinds.passage.drawings import drawings
+from contactstudy.study.kinds.passage.report.abstract import GRADES, abstract, grade, papers_scheme
 
 A4 = (595.276, 841.89)  # points
 

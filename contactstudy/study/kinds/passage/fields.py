@@ -38,7 +38,7 @@ _BESIDE, _DEEP, _STEP = 0.75, 3.0, 0.125
 
 
 def write_fields(results: StudyResults, out_dir: Path) -> list[Path]:
-    """Write the fields of all runs that kept some into `out_dir`/fields; companions beside.
+    """Write the fields of all runs that kept some into `out_dir`/fields.
 
     Returns
     -------
@@ -63,8 +63,6 @@ def write_fields(results: StudyResults, out_dir: Path) -> list[Path]:
         with writing(target) as path:
             path.write_text(_collection(entries), "utf-8")
         written.append(target)
-    for companion in results.companions:
-        written += write_fields(companion, Path(out_dir) / companion.name)
     return written
 
 

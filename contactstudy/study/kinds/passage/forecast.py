@@ -2,22 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any
 
-from rich.console import Console
 from rich.table import Table
 
 from contactstudy.exceptions import InputError
 from contactstudy.solids.cache import is_cached
 from contactstudy.study.kinds.passage import build
-from contactstudy.study.kinds.passage.placing import scan_meeting
-from contactstudy.study.kinds.passage.roughness import describe
 from contactstudy.study.kinds.passage.runs import PointRun
 from contactstudy.study.kinds.passage.schema import Study
-from contactstudy.study.loading import load_companions
 from contactstudy.track.beam import BeamTrack, RailTheory
 from contactstudy.track.model import Direction, DiscreteSupports, Slab, Track
 
@@ -81,51 +76,28 @@ def solid_dofs(study: Study, track: Track) -> int:
     return planes + cells * solid.internal_modes + below - held
 
 
-def print_check(study: Study, console: Console) -> None:
-    """Print the resolved values of a study and what its runs will need.
+def needs(studies: Sequence[Study]) -> list[str | Table]:
+    """What `check` prints of a study and its companions: static contact, sizes, expected time.
 
     Raises
     ------
     InputError
-        When a measured file or a companion's study file cannot be used.
+        When a profile or a scan cannot be used.
     """
-    described = describe(study)
-    companions = load_companions(study)
-    # whatever may be refused comes before the first line
-    if study.runs:
-        contact = _contact(study)
-        scan_meeting(study)
-    forecasts = [
-        (name if one is study else f"{one.name}: {name}", forecast(one, name, build.track(one)))
-        for one in (study, *companions)
-        for name in one.runs
-    ]
-    console.print(f"[bold]{study.title}[/bold] ({study.name})")
-    if study.description:
-        console.print(" ".join(study.description.split()), markup=False)
-    for warning in described.warnings:
-        console.print(f"warning: {warning}", markup=False, soft_wrap=True)
-    units = study.units()
-    values = Table("key", "value", "SI unit", show_header=True)
-    for key, value in _flat(study.config()):
-        values.add_row(key, _text(value), units.get(key, ""))
-    console.print(values)
-    if study.runs:
-        console.print(contact, soft_wrap=True)
-    sizes = Table("run", "dofs", "steps", "expected time (s)")
-    times = [0.0]
-    for label, found in forecasts:
-        times.append(found.seconds)
-        sizes.add_row(label, str(found.dofs), str(found.steps), f"{found.seconds:.0f}")
+    study = studies[0]
+    found: list[str | Table] = [_contact(study)] if study.runs else []
+    sizes, times = Table("run", "dofs", "steps", "expected time (s)"), [0.0]
+    for one in studies:
+        for name in one.runs:
+            size = forecast(one, name, build.track(one))
+            label = name if one is study else f"{one.name}: {name}"
+            times.append(size.seconds)
+            sizes.add_row(label, str(size.dofs), str(size.steps), f"{size.seconds:.0f}")
     if len(times) == 1:
-        console.print("no runs: figures of the irregularity only")
-        return
-    console.print(sizes)
-    seconds = max(*times, sum(times) / 2) + _condensation(study, companions)
-    console.print(
-        f"about {seconds:.0f} s with two runs at a time, figures and report not counted",
-        soft_wrap=True,
-    )
+        return [*found, "no runs: figures of the irregularity only"]
+    seconds = max(*times, sum(times) / 2) + _condensation(studies)
+    told = f"about {seconds:.0f} s with two runs at a time, figures and report not counted"
+    return [*found, sizes, told]
 
 
 def _contact(study: Study) -> str:
@@ -145,30 +117,13 @@ def _contact(study: Study) -> str:
     )
 
 
-def _condensation(study: Study, companions: list[Study]) -> float:
+def _condensation(studies: Sequence[Study]) -> float:
     """Seconds of condensing what the cache does not have; rail and wheel at the same time."""
     needed = [
         CONDENSATION[b.name] * (WHOLE if b.name == "rail" and not one.solid.half else 1)
-        for one in (study, *companions)
+        for one in studies
         for run in one.runs
         for b in build.bodies(one, run)
         if not is_cached(b)
     ]
     return max(needed, default=0.0)
-
-
-def _flat(tables: dict[str, Any], path: str = "") -> Iterator[tuple[str, Any]]:
-    for key, value in tables.items():
-        full = f"{path}.{key}" if path else key
-        if isinstance(value, dict):
-            yield from _flat(value, full)
-        else:
-            yield full, value
-
-
-def _text(value: Any) -> str:
-    if isinstance(value, float):
-        return f"{value:.10g}"
-    if isinstance(value, list):
-        return ", ".join(_text(item) for item in value)
-    return str(value)

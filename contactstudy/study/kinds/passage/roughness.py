@@ -11,8 +11,8 @@ import numpy as np
 
 from contactstudy import irregularity as irr
 from contactstudy.files import file_digest
+from contactstudy.irregularity.shown import IrregularityInfo, Level, SpectrumCurve
 from contactstudy.study.kinds.passage.schema import Study
-from contactstudy.study.results import IrregularityInfo, Level, Spectrum
 from contactstudy.track.model import Direction
 
 PROFILE_STEP = 0.01  # m, of the profile drawn in Fig. 1b
@@ -105,15 +105,15 @@ def describe(study: Study) -> Described:
     return described
 
 
-def _curve(table: irr.Irregularity) -> Spectrum:
+def _curve(table: irr.Irregularity) -> SpectrumCurve:
     omega = np.geomspace(*table.band, CURVE_POINTS)
     formula = table.formula()
     table_1 = formula.parameters == irr.paper_spectrum().parameters
     label = "eq. (3), Table 1" if table_1 else formula.name
-    return Spectrum(label, omega, formula(omega), table.band)
+    return SpectrumCurve(label, omega, formula(omega), table.band)
 
 
-def _estimate(table: irr.Irregularity, profile: irr.Profile) -> Spectrum:
+def _estimate(table: irr.Irregularity, profile: irr.Profile) -> SpectrumCurve:
     """Welch's estimate over two repeat lengths of the profile, in the band of its terms.
 
     The 36 m of the track are half a wavelength of the longest term; a profile is a function of
@@ -126,7 +126,7 @@ def _estimate(table: irr.Irregularity, profile: irr.Profile) -> Spectrum:
     estimate = irr.spectral_estimate(values, step)
     inside = (estimate.wavenumber >= low) & (estimate.wavenumber <= high)
     label = f"generated profile, seed {table.seed}"
-    return Spectrum(label, estimate.wavenumber[inside], estimate.density[inside], table.band)
+    return SpectrumCurve(label, estimate.wavenumber[inside], estimate.density[inside], table.band)
 
 
 def _sampled(study: Study, profile: irr.Profile) -> Level:
@@ -142,7 +142,7 @@ def _sampled(study: Study, profile: irr.Profile) -> Level:
 
 def _measured_info(
     table: irr.Irregularity, raw: irr.MeasuredProfile, passed: irr.MeasuredProfile
-) -> tuple[Spectrum, Level]:
+) -> tuple[SpectrumCurve, Level]:
     """Spectrum of the level as measured, with its valid band, and the band-passed level."""
     step = float(np.median(np.diff(raw.positions)))
     even = np.arange(raw.domain[0], raw.domain[1], step)
@@ -150,5 +150,5 @@ def _measured_info(
     band = 2.0 * np.pi / table.wavelengths[1], 2.0 * np.pi / table.wavelengths[0]
     label = f"measured level ({Path(table.measured_file).name}, {table.level_column})"
     positive = estimate.wavenumber > 0.0
-    spectrum = Spectrum(label, estimate.wavenumber[positive], estimate.density[positive], band)
+    spectrum = SpectrumCurve(label, estimate.wavenumber[positive], estimate.density[positive], band)
     return spectrum, Level(label, passed.positions, passed.levels)

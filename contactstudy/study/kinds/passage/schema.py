@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, ClassVar
 
 from contactstudy.irregularity import Irregularity
 from contactstudy.solvers.journey import Journey
@@ -58,6 +58,8 @@ class Study:
     reference : str or None
         Run that the others are compared with.
     """
+
+    kind: ClassVar[str] = "passage"
 
     name: str
     title: str

@@ -1,26 +1,16 @@
-"""Report of a study of positions: every patch, and its course over the lateral shift."""
+"""Figures and report of a study of positions: every patch, and its course over the shift."""
 
-from __future__ import annotations
+from functools import partial
 
-import json
-import tempfile
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
-
-import numpy as np
-
-from contactstudy.files import writing
 from contactstudy.plot.curves import Curve, Plot, curve
 from contactstudy.plot.draw import draw
-from contactstudy.plot.style import figure_style, save
-from contactstudy.plot.text import label, number
-from contactstudy.report.quantity import fixed, quantity
-from contactstudy.report.tables import Block, table, text
-from contactstudy.report.typesetting import typeset
+from contactstudy.plot.drawing import Drawing
+from contactstudy.plot.text import number
+from contactstudy.report.blocks import Block, figure, table, text
+from contactstudy.report.quantity import fixed
+from contactstudy.study.kind import Part, Report
 from contactstudy.study.kinds.positions.terminal import COLUMNS
-
-if TYPE_CHECKING:
-    import xarray as xr
+from contactstudy.study.results import StudyResults
 
 _DRAWN = ("y", "approach", "peak_pressure", "area")
 _LABELS = {
@@ -39,76 +29,53 @@ _METHOD = (
 )
 
 
-def write_positions(data: xr.Dataset, out_dir: Path) -> Path:
-    """Set out_dir/report.pdf; its figures go into out_dir/figures.
-
-    Parameters
-    ----------
-    data : xarray.Dataset
-        Of `contactstudy.study.kinds.positions.run.run_positions`.
-    out_dir : Path
-    """
-    figures = {f"positions_{name}": _plot(data, name) for name in _DRAWN}
-    with tempfile.TemporaryDirectory() as folder, writing(out_dir / "report.pdf") as path:
-        root = Path(folder)
-        (root / "figures").mkdir()
-        with figure_style():
-            for name, plot in figures.items():
-                pdf, _ = save(draw(plot), out_dir / "figures", name)
-                (root / "figures" / f"{name}.pdf").write_bytes(pdf.read_bytes())
-        path.write_bytes(typeset(root, ("sections.typ",), _content(data, figures)))
-    return out_dir / "report.pdf"
+def drawings(results: StudyResults) -> list[Drawing]:
+    """A figure a variable, with the curves of all wheels."""
+    plots = {name: _plot(results, name) for name in _DRAWN}
+    return [
+        Drawing(f"positions_{name}", plot.caption, partial(draw, plot))
+        for name, plot in plots.items()
+    ]
 
 
-def _content(data: xr.Dataset, figures: dict[str, Plot]) -> dict[str, Any]:
-    provenance = json.loads(data.attrs["provenance"])
-    versions = ", ".join(f"{k} {v}" for k, v in provenance["versions"].items())
-    description = [" ".join(p.split()) for p in data.attrs["description"].split("\n\n")]
-    sides = list(dict.fromkeys(data.wheel.values.tolist()))
-    return {
-        "title": data.attrs["title"],
-        "subtitle": f"Study {label(data.attrs['name'])} · contactstudy "
-        f"{provenance['versions']['contactstudy']}",
-        "name": data.attrs["name"],
-        "summary": [text(p.replace("`", "“", 1).replace("`", "”", 1)) for p in description if p]
-        + [text(_METHOD), _parameters(data)],
-        "cases": [
-            *({"title": f"{s.capitalize()} wheel", "blocks": [_patches(data, s)]} for s in sides),
-            {
-                "title": "Over the lateral shift",
-                "blocks": [
-                    {"kind": "figure", "file": f"{name}.pdf", "caption": plot.caption}
-                    for name, plot in figures.items()
-                ],
-            },
-        ],
-        "provenance": [
-            {
-                "kind": "list",
-                "items": [
-                    f"Versions: {versions}.",
-                    f"Hash of all inputs and of the program: {provenance['hash']}.",
-                ],
-            }
-        ],
-    }
+def report(results: StudyResults) -> Report:
+    """How positions are computed, a table a wheel, and the figures."""
+    parts: list[Part] = [
+        {"title": f"{side.capitalize()} wheel", "blocks": [_patches(results, side)]}
+        for side in results.runs
+    ]
+    figures = [figure(made.name, made.caption) for made in drawings(results)]
+    parts.append({"title": "Over the lateral shift", "blocks": figures})
+    return Report(abstract=[_abstract(results)], subject=[text(_METHOD)], parts=parts)
 
 
-def _parameters(data: xr.Dataset) -> Block:
-    config, units = json.loads(data.attrs["config"]), json.loads(data.attrs["units"])
-    rows = []
-    for key, value in config.items():
-        if isinstance(value, list) and len(value) > 4:
-            ends = [quantity(v, units.get(key, ""))[0] for v in (value[0], value[-1])]
-            shown = f"{len(value)} values, {ends[0]} … {ends[1]}"
-            rows.append([label(key), shown, units.get(key, "")])
-        else:
-            rows.append([label(key), *quantity(value, units.get(key, ""))])
-    return table(["Parameter", "Value", "Unit"], rows, "Parameters.", 3)
+def _abstract(results: StudyResults) -> str:
+    sides = " and ".join(results.runs)
+    count = len(results.config["positions"]["lateral"])
+    lists = [f"{number(low, 4)} to {number(high, 4)} {unit}" for low, high, unit in (
+        (*_range(results, "approach", 1e6), "µm"),
+        (*_range(results, "peak_pressure", 1e-6), "MPa"),
+        (*_range(results, "area", 1e6), "mm²"),
+    )]  # fmt: skip
+    load = number(1e-3 * results.config["positions"]["load"], 4)
+    patches = sum(run.sizes["row"] for run in results.runs.values())
+    return (
+        f"A wheelset is pressed on its rails at {count} position{'s' if count > 1 else ''} of "
+        f"lateral shift and yaw ({sides} wheel{'s' if len(results.runs) > 1 else ''}), with "
+        f"{load} kN on each wheel. In the {patches} contact patches the approach is {lists[0]}, "
+        f"the peak pressure {lists[1]} and the area {lists[2]}."
+    )
 
 
-def _patches(data: xr.Dataset, side: str) -> Block:
-    own = data.isel(row=data.wheel.values == side)
+def _range(results: StudyResults, name: str, scale: float) -> tuple[float, float]:
+    """Smallest and largest value among all patches."""
+    low = min(float(run[name].min()) for run in results.runs.values())
+    high = max(float(run[name].max()) for run in results.runs.values())
+    return scale * low, scale * high
+
+
+def _patches(results: StudyResults, side: str) -> Block:
+    own = results.runs[side]
     headings = [h.rpartition(" ") for h, _, _ in COLUMNS.values()]
     columns = [f"{words} ({unit})" if words else unit for words, _, unit in headings]
     rows = [
@@ -117,24 +84,20 @@ def _patches(data: xr.Dataset, side: str) -> Block:
         for k in range(own.sizes["row"])
     ]  # fmt: skip
     caption = "Contact patches; y is the contact position on the rail, positive to the field side."
-    made = table(columns, rows, caption, 0)
-    return made | {"size": 8}
+    return table(columns, rows, caption, 0) | {"size": 8}
 
 
-def _plot(data: xr.Dataset, name: str) -> Plot:
+def _plot(results: StudyResults, name: str) -> Plot:
     words, axis = _LABELS[name]
     scale = COLUMNS[name][1]
     curves: list[Curve] = []
-    for side in dict.fromkeys(data.wheel.values.tolist()):
-        for first in (True, False):
-            chosen = (data.wheel.values == side) & ((data.patch.values == 1) == first)
-            if chosen.any():
-                x, y = 1e3 * data.lateral.values[chosen], scale * data[name].values[chosen]
-                if first:
-                    curves.append(curve(f"{side} wheel", x, y, "both"))
-                else:
-                    curves.append(curve(f"{side} wheel, further patches", x, y, "points"))
-    low, high = scale * float(np.min(data[name])), scale * float(np.max(data[name]))
+    for side, run in results.runs.items():
+        x, y = 1e3 * run.lateral.values, scale * run[name].values
+        first = run.patch.values == 1
+        curves.append(curve(f"{side} wheel", x[first], y[first], "both"))
+        if not first.all():
+            curves.append(curve(f"{side} wheel, further patches", x[~first], y[~first], "points"))
+    low, high = _range(results, name, scale)
     return Plot(
         f"{words} over the lateral shift of the wheelset, from "
         f"{number(low, 4)} to {number(high, 4)}.",

@@ -4,20 +4,19 @@ from __future__ import annotations
 
 import math
 import re
-import tomllib
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 from contactstudy.exceptions import InputError
 from contactstudy.geometry.wheelset import SIDES, Side, Wheelset, WheelsetDimensions
 from contactstudy.halfspace.hertz import contact_modulus
 from contactstudy.profiles.curve import ProfileCurve
 from contactstudy.profiles.named import rail_curve, wheel_curve
+from contactstudy.profiles.wheel_file import file_digest
 from contactstudy.study.kinds.passage.wheelset import PATHS, WheelsetPosition, off_track
-from contactstudy.study.loading import find_study
 from contactstudy.study.overrides import override
 from contactstudy.track.rail import Rail
 from contactstudy.units import UnitError, to_si
@@ -143,12 +142,18 @@ class PositionsStudy:
     ----------
     name, title, description : str
     table : Positions
+    companions, reference
+        Those of other kinds; a study of positions has none.
     """
+
+    kind: ClassVar[str] = "positions"
 
     name: str
     title: str
     description: str
     table: Positions
+    companions: tuple[str, ...] = ()
+    reference: str | None = None
 
     @cached_property
     def wheelset(self) -> Wheelset:
@@ -173,46 +178,47 @@ class PositionsStudy:
     def config(self) -> dict[str, Any]:
         """Table as plain data in SI; of paths the file's name only."""
         values = self.table.resolved()
-        return {k: Path(v).name if k in PATHS else v for k, v in values.items()}
+        return {"positions": {k: Path(v).name if k in PATHS else v for k, v in values.items()}}
+
+    def units(self) -> dict[str, str]:
+        """Dotted key of `config` -> SI unit."""
+        return {f"positions.{key}": unit for key, unit in self.table.units().items()}
+
+    def files(self) -> dict[str, str]:
+        """Name of each profile's file -> SHA-256 of its content."""
+        names = [getattr(self.table, key) for key in PATHS]
+        return {Path(n).name: found for n in names if (found := file_digest(n))}
 
 
-def load_positions(study: str | Path, overrides: Iterable[str] = ()) -> PositionsStudy | None:
-    """Read a study file that has a table ``[positions]``; None if it has none.
+def load_positions(
+    path: Path, data: dict[str, Any], overrides: Iterable[str] = ()
+) -> PositionsStudy:
+    """Check the content of a study file that has a table ``[positions]``.
 
     Parameters
     ----------
-    study : str or Path
-        A path, or the name of a shipped study.
+    path : Path
+        Of the file; paths inside are relative to it.
+    data : dict
+        Content as TOML gives it; overridden in place.
     overrides : iterable of str
         ``positions.key=value``.
 
     Raises
     ------
     InputError
-        Listing every problem of such a file. Other files are left to `load_study`.
+        Listing every problem.
     """
-    path = find_study(study)
-    try:
-        data = tomllib.loads(path.read_text("utf-8"))
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError, OSError):
-        return None  # `load_study` says what is wrong
-    if "positions" not in data:
-        return None
     resolve_paths(Positions, data["positions"], path.parent)
-    problems = override(data, overrides, {"positions": Positions})
-    return _parsed(path.stem, data, problems)
-
-
-def _parsed(name: str, data: Mapping[str, Any], problems: list[str]) -> PositionsStudy:
-    found = problems + [unknown("", key, _TOP_LEVEL) for key in data if key not in _TOP_LEVEL]
-    title, description = data.get("title", name), data.get("description", "")
+    found = override(data, overrides, {"positions": Positions})
+    found += [unknown("", key, _TOP_LEVEL) for key in data if key not in _TOP_LEVEL]
+    title, description = data.get("title", path.stem), data.get("description", "")
     found += [
         complaint(key, value, "must be text")
         for key, value in (("title", title), ("description", description))
         if not isinstance(value, str)
     ]
     table, wrong = read(Positions, data["positions"], "positions")
-    found += wrong
-    if found:
-        raise InputError(found)
-    return PositionsStudy(name, title, description, table)
+    if problems := found + wrong:
+        raise InputError(problems)
+    return PositionsStudy(path.stem, title, description, table)

@@ -4,13 +4,13 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from contactstudy.figures.irregularity import comparisons
+from contactstudy.figures.irregularity import comparisons, irregularity_of
 from contactstudy.figures.passing_components import all_passing
 from contactstudy.figures.signals import fade_end, position, speed, values
 from contactstudy.plot.text import capital, exact, label, number
-from contactstudy.report.metrics import between, of_run
 from contactstudy.report.quantity import grouped, percent
-from contactstudy.report.tables import describe
+from contactstudy.study.kinds.passage.report.metrics import between, of_run
+from contactstudy.study.kinds.passage.report.tables import describe
 from contactstudy.study.results import StudyResults
 
 # Upper limits of the relative L2 error of the dynamic part, and what is said below each.
@@ -71,7 +71,7 @@ def _case(results: StudyResults) -> str:
 
 def _irregularity(results: StudyResults) -> str:
     """What a study without runs is about."""
-    info = results.irregularity
+    info = irregularity_of(results)
     text = "This study has no runs; it shows a rail irregularity."
     if info.profile is not None:
         x, r = info.profile.position, info.profile.level * 1e3

@@ -5,7 +5,7 @@ import xarray as xr
 
 from contactstudy.figures.signals import position, values
 from contactstudy.plot.text import exact, label, number
-from contactstudy.report.tables import Block, table
+from contactstudy.report.blocks import Block, table
 from contactstudy.study.results import StudyResults
 
 _COLUMNS = [

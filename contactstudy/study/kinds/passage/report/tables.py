@@ -1,46 +1,18 @@
 """Tables of the report as plain data: columns and rows of texts."""
 
-import re
 from collections.abc import Mapping
 from typing import Any
 
 from contactstudy.figures.passing_components import all_passing, component
 from contactstudy.figures.signals import SIGNALS, Signal
 from contactstudy.plot.text import label
-from contactstudy.report.metrics import between, of_run
+from contactstudy.report.blocks import Block, table
 from contactstudy.report.quantity import fixed, grouped, percent, quantity, rounded
+from contactstudy.study.kinds.passage.report.metrics import between, of_run
 from contactstudy.study.results import StudyResults
 
-Block = dict[str, Any]
 # The template sets these as symbols.
 K_R, K_H = "k_r", "k_H"
-
-
-def text(content: str) -> Block:
-    """Return a paragraph of plain text, any characters."""
-    return {"kind": "text", "parts": [{"text": content}]}
-
-
-def cited(content: str) -> Block:
-    """Return a paragraph in which {key} cites an entry of references.yml."""
-    pieces = re.split(r"\{([a-z0-9]+)\}", content)
-    parts = [{"cite": p} if i % 2 else {"text": p} for i, p in enumerate(pieces)]
-    return {"kind": "text", "parts": parts}
-
-
-def table(
-    columns: list[str], rows: list[list[str]], caption: str, left: int = 1, note: str = ""
-) -> Block:
-    """Return a table whose first `left` columns are text and whose others are numbers."""
-    made: Block = {
-        "kind": "table",
-        "columns": [
-            {"title": c, "align": "left" if i < left else "right"} for i, c in enumerate(columns)
-        ],
-        "rows": rows,
-        "caption": caption,
-    }
-    return made | ({"note": note} if note else {})
 
 
 def describe(results: StudyResults, name: str) -> tuple[str, str]:

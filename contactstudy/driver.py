@@ -1,0 +1,94 @@
+"""A study of any kind from its inputs to its report: compute what is not finished, write all."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from contactstudy.exceptions import InputError
+from contactstudy.figures import write_figures
+from contactstudy.files import ensure_writable, file_digest
+from contactstudy.report import write_report
+from contactstudy.reporter import Quiet, Reporter
+from contactstudy.store import Store
+from contactstudy.study.compute import compute
+from contactstudy.study.kind import Study, find_kind
+from contactstudy.study.loading import load_companions
+from contactstudy.study.plan import RUNS, Plan, collect, plan_study
+from contactstudy.study.results import StudyResults, read_results, write_results
+
+FINISHED = "finished"
+
+
+def run_study(
+    study: Study, out_dir: str | Path, jobs: int = 2, reporter: Reporter | None = None
+) -> StudyResults:
+    """Run a study and write results, figures and report into `out_dir`.
+
+    What is finished there already is taken as it is; when everything is, so are the figures and
+    the report.
+
+    Parameters
+    ----------
+    study : Study
+    out_dir : str or Path
+    jobs : int
+        Pieces of work at once, each in another process.
+    reporter : Reporter, optional
+
+    Raises
+    ------
+    InputError
+        For input files that cannot be used or a folder that cannot be written; before any run.
+    NumericalError
+        When a run broke down; the others are finished and kept.
+    """
+    reporter, out_dir = reporter or Quiet(), Path(out_dir)
+    ensure_writable(out_dir)
+    with reporter.stage("reading the study"):
+        plan = plan_study(study, out_dir, tuple(load_companions(study)))
+    for warning in plan.warnings:
+        reporter.note(warning)
+    if (done := finished_results(plan)) is not None:
+        reporter.note(f"{out_dir}: all results are there and up to date")
+        return done
+    found = compute(plan, jobs, reporter)
+    with reporter.stage("comparing the runs"):
+        results = collect(plan, found)
+        written = write(results, out_dir)
+    written += render(results, out_dir, reporter)
+    _mark_finished(plan, written)
+    return results
+
+
+def write(results: StudyResults, out_dir: Path) -> list[Path]:
+    """Write labelled results, and the kind's further files, of a study and its companions."""
+    written = [*write_results(results, out_dir)]
+    written += find_kind(results.kind).write_files(results, out_dir)
+    for companion in results.companions:
+        written += write(companion, out_dir / companion.name)
+    return written
+
+
+def render(results: StudyResults, out_dir: Path, reporter: Reporter) -> list[Path]:
+    """Draw the figures of a study and its companions, and typeset the report."""
+    with reporter.stage("drawing the figures"):
+        written = write_figures(results, out_dir)
+    with reporter.stage("typesetting the report"):
+        written.append(write_report(results, out_dir))
+    return written
+
+
+def _mark_finished(plan: Plan, written: list[Path]) -> None:
+    sums = {p.relative_to(plan.out_dir).as_posix(): file_digest(p) for p in written}
+    Store(plan.out_dir / RUNS).save(FINISHED, plan.key(), sums)
+
+
+def finished_results(plan: Plan) -> StudyResults | None:
+    """Results of a plan when all its output files are there, whole and up to date."""
+    sums = Store(plan.out_dir / RUNS).load(FINISHED, plan.key()).value
+    try:
+        if sums and all(file_digest(plan.out_dir / name) == sums[name] for name in sums):
+            return read_results(plan.out_dir)
+    except (OSError, InputError):  # a file is missing or damaged
+        pass
+    return None

@@ -1,0 +1,111 @@
+"""What Figs 1a and 1b show of an irregularity, and its labelled dataset."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from contactstudy.arrays import Array
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+@dataclass(frozen=True)
+class SpectrumCurve:
+    """Samples of a power spectral density of the vertical irregularity.
+
+    Attributes
+    ----------
+    label : str
+        Text for a legend.
+    wavenumber : (n,) array
+        Angular wavenumber in rad/m, increasing.
+    density : (n,) array
+        Two-sided density G in m^2/(rad/m): the variance is the integral over both signs of
+        the wavenumber, 2 * int_0^inf G dω.
+    band : (2,) tuple of float
+        Wavenumbers in rad/m between which the density is valid.
+    """
+
+    label: str
+    wavenumber: Array
+    density: Array
+    band: tuple[float, float]
+
+
+@dataclass(frozen=True)
+class Level:
+    """A profile over position: ``position`` (n,) in m and ``level`` (n,) in m, up positive."""
+
+    label: str
+    position: Array
+    level: Array
+
+
+@dataclass(frozen=True)
+class IrregularityInfo:
+    """Everything Figs 1a and 1b show.
+
+    Attributes
+    ----------
+    spectrum : SpectrumCurve or None
+        The formula, e.g. eq. (3); None when the study's irregularity is a measured profile.
+    estimate : SpectrumCurve or None
+        Spectral estimate of the profile in use; None for a smooth rail.
+    profile : Level or None
+        The profile in use over the track (before it is faded in).
+    measured : SpectrumCurve or None
+        Spectral estimate of a measured profile, with the band in which it is valid.
+    measured_profile : Level or None
+        The measured level itself, band-passed.
+    """
+
+    spectrum: SpectrumCurve | None = None
+    estimate: SpectrumCurve | None = None
+    profile: Level | None = None
+    measured: SpectrumCurve | None = None
+    measured_profile: Level | None = None
+
+
+_SPECTRA = ("spectrum", "estimate", "measured")
+_LEVELS = ("profile", "measured_profile")
+
+
+def to_dataset(info: IrregularityInfo) -> xr.Dataset:
+    """Labelled data that netCDF can hold; each curve with a dimension of its own."""
+    import xarray as xr
+
+    data = xr.Dataset()
+    for key in _SPECTRA:
+        spectrum = getattr(info, key)
+        if spectrum is not None:
+            k = f"{key}_wavenumber"
+            data[k] = (k, spectrum.wavenumber, {"units": "rad/m"})
+            attrs = {"units": "m^2/(rad/m)", "sides": "two", "long_name": spectrum.label}
+            data[f"{key}_density"] = (k, spectrum.density, attrs)
+            data[f"{key}_density"].attrs["valid_band"] = list(spectrum.band)
+    for key in _LEVELS:
+        level = getattr(info, key)
+        if level is not None:
+            x = f"{key}_position"
+            data[x] = (x, level.position, {"units": "m"})
+            data[key] = (x, level.level, {"units": "m", "long_name": level.label})
+    return data
+
+
+def from_dataset(data: xr.Dataset) -> IrregularityInfo:
+    """The inverse of `to_dataset`."""
+    parts: dict[str, Any] = {}
+    for key in _SPECTRA:
+        if f"{key}_density" in data:
+            density = data[f"{key}_density"]
+            low, high = density.attrs["valid_band"]
+            wavenumber, band = data[f"{key}_wavenumber"].values, (float(low), float(high))
+            parts[key] = SpectrumCurve(density.attrs["long_name"], wavenumber, density.values, band)
+    for key in _LEVELS:
+        if key in data:
+            level = data[key]
+            position = data[f"{key}_position"].values
+            parts[key] = Level(level.attrs["long_name"], position, level.values)
+    return IrregularityInfo(**parts)

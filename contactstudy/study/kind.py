@@ -1,0 +1,248 @@
+"""What a kind of study is, and the one table of them.
+
+A kind says what one study computes: a *passage* lets wheels run over a track, a set of *positions*
+presses a wheelset on its rails. It owns its tables, its check, its pieces of work, what it
+collects, its norms, drawings, report parts and terminal table. Everything else (command line,
+reading of files, store, resume, progress, netCDF, JSON, figures' writer, PDF) knows only `Kind`.
+
+A study file is of the kind whose name is one of its tables, else a passage.
+"""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, ClassVar, Protocol
+
+from contactstudy.exceptions import InputError
+from contactstudy.executor import Task
+from contactstudy.reporter import Reporter
+from contactstudy.store import DATASET, Form
+from contactstudy.study.results import StudyResults
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+DEFAULT = "passage"
+#: Name -> "module:object". Adding a kind is one folder in study/kinds and one line here.
+KINDS = {
+    "passage": "contactstudy.study.kinds.passage.kind:PASSAGE",
+    "positions": "contactstudy.study.kinds.positions.kind:POSITIONS",
+}
+
+Block = dict[str, Any]
+"""A paragraph, list, table or figure of the report, see `contactstudy.report.blocks`."""
+Part = dict[str, Any]
+"""``title`` and ``blocks`` of a section of the report."""
+Cost = Mapping[str, Any]
+"""``seconds`` {``setup``, ``stepping``} and ``peak_memory_mb`` of a piece of work."""
+
+
+class Study(Protocol):
+    """A study file that has been read and found possible; frozen and picklable."""
+
+    kind: ClassVar[str]
+
+    @property
+    def name(self) -> str:
+        """Stem of the file."""
+
+    @property
+    def title(self) -> str:
+        """One line."""
+
+    @property
+    def description(self) -> str:
+        """Paragraphs."""
+
+    @property
+    def companions(self) -> tuple[str, ...]:
+        """Studies whose results stand in the same report."""
+
+    @property
+    def reference(self) -> str | None:
+        """Run that the others are compared with."""
+
+    def config(self) -> dict[str, Any]:
+        """All values as nested plain data in SI, without keys that do not apply."""
+
+    def units(self) -> dict[str, str]:
+        """Dotted key of `config` -> SI unit, for keys that have one."""
+
+
+@dataclass(frozen=True)
+class Inputs:
+    """What a study reads before anything is computed.
+
+    Attributes
+    ----------
+    config : mapping
+        The resolved study; of paths only the file's name, because paths are the machine's.
+    files : mapping of str to str
+        Name of each input file -> SHA-256 of its content.
+    warnings : tuple of str
+        For the user.
+    groups : callable
+        What belongs to the study and not to one run: name -> xarray.Dataset. Called when results
+        are written.
+    seed : int or None
+        Of what is random.
+    mesh : callable
+        Recipe of the mesh for the provenance, or None; called as `groups` is.
+    """
+
+    config: Mapping[str, Any]
+    files: Mapping[str, str] = field(default_factory=dict)
+    warnings: tuple[str, ...] = ()
+    groups: Callable[[], Mapping[str, xr.Dataset]] = dict
+    seed: int | None = None
+    mesh: Callable[[], dict[str, Any] | None] = lambda: None
+
+
+@dataclass(frozen=True)
+class Work:
+    """A piece of a study's work, computed at one go and kept by itself.
+
+    Attributes
+    ----------
+    name : str
+        Letters, digits and _; distinct within the study.
+    inputs : object
+        Plain data: all that goes into it besides input files, code and packages.
+    title : str
+        What messages call it; "run NAME" if empty.
+    bar : str
+        Progress bar that it shares with others, in pieces; its own, in steps, if empty.
+    long : bool
+        Whether it takes long: such ones start first, so that the short ones fill the gaps.
+    """
+
+    name: str
+    inputs: Any
+    title: str = ""
+    bar: str = ""
+    long: bool = False
+
+
+@dataclass(frozen=True)
+class Report:
+    """What a kind has to say of a study in the report, as plain data.
+
+    Attributes
+    ----------
+    abstract : sequence of str
+        Paragraphs.
+    subject : sequence of Block
+        What is computed, after the study's description.
+    sources : Block or None
+        Paragraph above the tables of parameters.
+    parts : sequence of Part
+        Results; the ``file`` of a figure's block is its drawing's name and ".pdf".
+    as_companion : sequence of Part or None
+        Its parts in another study's report; `parts` if None.
+    model, limits : str
+        Template files with what holds for every study of the kind, before the parameters and
+        after the results; none if empty.
+    """
+
+    abstract: Sequence[str]
+    parts: Sequence[Part]
+    subject: Sequence[Block] = ()
+    sources: Block | None = None
+    as_companion: Sequence[Part] | None = None
+    model: str = ""
+    limits: str = ""
+
+
+class Kind:
+    """What one study computes; a kind overrides the methods that have no default."""
+
+    name: str
+    #: "module:function" of what does a piece of work in a worker process:
+    #: ``function(study, name, progress)``. The module's code and all that it imports is part of
+    #: what is computed, so it imports nothing that draws or prints.
+    computing: str
+    #: How what it returns is kept: a dataset, or plain data (small ones are quicker so) for None.
+    form: ClassVar[Form | None] = DATASET
+    #: Table of the study file -> its model: for reading, ``--set`` and the reference of keys.
+    tables: ClassVar[Mapping[str, Any]]
+    #: Table -> title of its parameters in the report, which shows no others.
+    titles: ClassVar[Mapping[str, str]] = {}
+
+    def load(
+        self, path: Path, data: dict[str, Any], overrides: Iterable[str], main: Any = None
+    ) -> Any:
+        """Check the content of a study file; `main` is the study that it accompanies, if any."""
+        raise NotImplementedError
+
+    def read_inputs(self, study: Any) -> Inputs:
+        """Read what the study names, and refuse what cannot be used."""
+        return Inputs(study.config())
+
+    def check(self, study: Any, companions: Sequence[Any], reporter: Reporter) -> Sequence[Any]:
+        """What it will need, or why it cannot be run; texts and rich tables to print."""
+        return ()
+
+    def work(self, study: Any, inputs: Inputs) -> Sequence[Work]:
+        """The pieces of work."""
+        raise NotImplementedError
+
+    def admit(self, study: Any, names: Sequence[str], reporter: Reporter) -> None:
+        """Refuse pieces of work that are known to be impossible, before any is computed."""
+
+    def before(self, study: Any, name: str) -> Sequence[Task]:
+        """Tasks that a piece of work waits for; equal names are one task."""
+        return ()
+
+    def collect(self, study: Any, found: Mapping[str, Any]) -> Mapping[str, xr.Dataset]:
+        """The runs of the results, from the finished pieces of work by name."""
+        return found
+
+    def metrics(
+        self, study: Any, runs: Mapping[str, xr.Dataset], costs: Mapping[str, Cost]
+    ) -> dict[str, Any]:
+        """Content of ``metrics.json``: ``runs``, ``reference``, ``comparisons``."""
+        return {"runs": dict(costs), "reference": study.reference, "comparisons": {}}
+
+    def drawings(self, results: StudyResults) -> Sequence[Any]:
+        """Each a `contactstudy.plot.drawing.Drawing`, in the order of the report."""
+        return ()
+
+    def write_files(self, results: StudyResults, out_dir: Path) -> Sequence[Path]:
+        """Write further files; equal results give equal bytes."""
+        return ()
+
+    def report(self, results: StudyResults, timings: bool = False) -> Report:
+        """Texts and tables; with `timings` also what depends on the machine."""
+        raise NotImplementedError
+
+    def summary(self, results: StudyResults) -> Sequence[Any]:
+        """What a command prints in the end: texts and rich tables."""
+        return ()
+
+    def export(self, study: Any, out: Path, **options: str | None) -> str:
+        """Write a static press for CalculiX; what to tell the user."""
+        raise InputError(
+            f"study {study.name}: is a study of {self.name} (table [{self.name}]); only "
+            "'contactstudy check', 'run' and 'reproduce' take it"
+        )
+
+
+def find_kind(name: str) -> Kind:
+    """The kind of a name in `KINDS`, imported when it is asked for."""
+    found = imported(KINDS[name])
+    assert isinstance(found, Kind)
+    return found
+
+
+def imported(place: str) -> Any:
+    """What stands at "module:name"."""
+    module, _, name = place.partition(":")
+    return getattr(importlib.import_module(module), name)
+
+
+def kind_of_file(data: Mapping[str, Any]) -> Kind:
+    """The kind of a study file, given by its content as TOML gives it."""
+    return find_kind(next((name for name in KINDS if name in data), DEFAULT))

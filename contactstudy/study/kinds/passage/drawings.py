@@ -1,0 +1,26 @@
+"""Which figures a passage has, in the order of its report."""
+
+from contactstudy.figures import (
+    bands,
+    histories,
+    irregularity,
+    passing,
+    patch,
+    patch_history,
+    patch_status,
+    press,
+    section,
+    stress,
+)
+from contactstudy.plot.drawing import Drawing
+from contactstudy.study.results import StudyResults
+
+_FAMILIES = (
+    irregularity, histories, bands, patch, patch_status, stress, patch_history, section, press,
+    passing,
+)  # fmt: skip
+
+
+def drawings(results: StudyResults) -> list[Drawing]:
+    """All figures that these results can fill."""
+    return [made for family in _FAMILIES for made in family.drawings(results)]

@@ -1,0 +1,87 @@
+"""What a passage reads before anything runs, and what goes into each of its runs."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+from contactstudy.files import file_digest as digest_of
+from contactstudy.irregularity.shown import to_dataset
+from contactstudy.profiles.wheel_file import file_digest
+from contactstudy.study.kind import Inputs
+from contactstudy.study.kinds.passage.build import recipe
+from contactstudy.study.kinds.passage.placing import contact_zone, scan_meeting
+from contactstudy.study.kinds.passage.roughness import describe
+from contactstudy.study.kinds.passage.scan import PATHS as SCAN_PATHS
+from contactstudy.study.kinds.passage.schema import IRREGULARITY, Study
+from contactstudy.study.kinds.passage.wheelset import PATHS as WHEELSET_PATHS
+
+
+def read_inputs(study: Study) -> Inputs:
+    """Read a study's irregularity, section, profiles and scans.
+
+    Raises
+    ------
+    InputError
+        When a file cannot be used.
+    """
+    described = describe(study)
+    config = study.config()
+    for key in ("file", "measured_overlay"):
+        if config["irregularity"].get(key):  # the content counts, and paths are the machine's
+            config["irregularity"][key] = Path(config["irregularity"][key]).name
+    files = dict(described.files)
+    if "wheelset" in config:
+        contact_zone(study)  # refused before anything is computed
+    section = study.solid.wheel_section
+    if digest := file_digest(section):
+        files[Path(section).name] = digest
+        if "solid" in config:
+            config["solid"]["wheel_section"] = Path(section).name
+    for key in WHEELSET_PATHS:
+        name = getattr(study.wheelset, key)
+        if "wheelset" in config and (digest := file_digest(name)):
+            files[Path(name).name] = digest
+            config["wheelset"][key] = Path(name).name
+    notes = described.warnings + _scans(study, config, files)
+    meshed = bool(study.runs) and study.track.rail.profile_name is not None
+    return Inputs(
+        config,
+        files,
+        notes,
+        groups=lambda: {IRREGULARITY: to_dataset(described.info)},
+        seed=config["irregularity"].get("seed"),
+        mesh=lambda: asdict(recipe(study)) if meshed else None,
+    )
+
+
+def _scans(study: Study, config: dict[str, Any], files: dict[str, str]) -> tuple[str, ...]:
+    """Check the scans, enter them and their residuals; how well they are fitted."""
+    if "scan" not in config:
+        return ()
+    found = scan_meeting(study)
+    for key in SCAN_PATHS:
+        if name := getattr(study.scan, key):
+            files[Path(name).name] = digest_of(Path(name))
+            config["scan"][key] = Path(name).name
+    config["scan"] |= study.scan.fitted()
+    notes = [f"scan {scan.summary()}" for scan in study.scan.surfaces() if scan is not None]
+    assert found is not None
+    return (
+        *notes,
+        "scan: facets touch "
+        f"{1e6 * abs(found.difference):.3g} um {'lower' if found.difference > 0 else 'higher'} "
+        "than the smooth surfaces",
+    )
+
+
+def run_inputs(study: Study, inputs: Inputs, run: str) -> list[Any]:
+    """Everything that goes into one run, as plain data; the contents of files stand apart."""
+    shared = {k: v for k, v in inputs.config.items() if k not in ("runs", "compare", "solid")}
+    # Beams take their section from the solid's mesh, so its size matters to them as well.
+    solid = study.solid.resolved() | {"wheel_section": Path(study.solid.wheel_section).name}
+    shared["solid"] = solid if study.bodies(run) else solid["mesh_size"]
+    # with modes in another run the wheel is meshed more finely round its circumference
+    shared["modes"] = "wheel" in study.bodies(run) and study.has_wheel_modes
+    return [study.config()["runs"][run], shared]

@@ -1,0 +1,122 @@
+"""What the report says of a passage."""
+
+from typing import Any
+
+from contactstudy.figures.passing_components import is_smooth
+from contactstudy.report.blocks import Block, cited, figure, paragraphs, text
+from contactstudy.study.kind import Part, Report
+from contactstudy.study.kinds.passage.drawings import drawings
+from contactstudy.study.kinds.passage.report.abstract import GRADES, abstract
+from contactstudy.study.kinds.passage.report.stress_table import stress_tables
+from contactstudy.study.kinds.passage.report.tables import error_tables, passing_table, run_table
+from contactstudy.study.results import StudyResults
+
+# Parts of the results in their order, with the figures that belong to each.
+_PARTS = (
+    ("Irregularity", ("irregularity_spectrum", "irregularity_profile")),
+    ("Contact force", ("contact_force", "third_octaves")),
+    ("Motion of the wheel", ("wheel_displacement", "wheel_acceleration")),
+    ("Motion of the rail", ("rail_displacement",)),
+    (
+        "Contact patch",
+        (
+            "patch_pressure",
+            "patch_status",
+            "stress_below",
+            "patch_history",
+            "deformed_section",
+            "static_press",
+        ),
+    ),
+    ("Passing frequencies", ("smooth_force", "passing_amplitudes")),
+)
+
+
+def report(results: StudyResults, timings: bool) -> Report:
+    """The paper's comparison, with its model and what of the paper was not available.
+
+    Parameters
+    ----------
+    results : StudyResults
+        A finished study.
+    timings : bool
+        Whether the run table shows seconds and memory.
+    """
+    parts = _parts(results)
+    return Report(
+        abstract=abstract(results),
+        subject=_subject(results, timings),
+        sources=_sources(results),
+        parts=[*parts, *_errors(results)],
+        as_companion=_as_companion(results, parts, timings),
+        model="model.typ",
+        limits="limits.typ",
+    )
+
+
+def _subject(results: StudyResults, timings: bool) -> list[Block]:
+    if not results.runs:
+        return []
+    told = text(
+        "Each run changes one assumption or a few, so that their differences can be told apart: "
+        "how the rail is modelled, by what law wheel and rail push on each other, and with what "
+        "stiffness."
+    )
+    return [told, run_table(results, timings)]
+
+
+def _sources(results: StudyResults) -> Block:
+    sources = "The tables give the resolved values that the program used."
+    if results.config.get("track", {}).get("support") == "discrete":
+        sources += (
+            " The default supports are the ballasted track of Zhai et al. {zhai}, per rail seat."
+        )
+    if results.config.get("vehicle", {}).get("type") == "wheel_column":
+        sources += (
+            " The default vehicle has the values of the Shinkansen S300 of Wu and Yang {wu}, per "
+            "wheel: the paper does not give its train's, and this is the nearest open set."
+        )
+    if results.config.get("track", {}).get("rail") == "60E1":
+        sources += " The default rail is the profile 60E1 {en13674}."
+    return cited(sources)
+
+
+def _parts(results: StudyResults) -> list[Part]:
+    """Parts with at least one figure; a figure belongs to the part that its name begins with."""
+    made = drawings(results)
+    parts: list[Part] = []
+    for title, names in _PARTS:
+        blocks = [figure(d.name, d.caption) for d in made if d.name.startswith(names)]
+        if title == "Contact patch":
+            blocks += stress_tables(results)
+        if blocks:
+            parts.append({"title": title, "blocks": blocks})
+    return parts
+
+
+def _errors(results: StudyResults) -> list[Part]:
+    tables = error_tables(results)
+    if not tables:
+        return []
+    grades = "; ".join(
+        f"below {100 * limit:g} % “{words}”" for limit, words in GRADES if limit != float("inf")
+    )
+    note = text(
+        "The errors are given twice, relative to the whole signal and relative to its dynamic "
+        "part about the static value: whether two models look almost identical depends on which. "
+        "M, P and C are the errors of magnitude, phase and both of Sprague and Geers, of the "
+        f"dynamic part. The words of the abstract follow the error of the dynamic part: {grades}, "
+        f"else “{GRADES[-1][1]}”."
+    )
+    return [{"title": "Errors", "blocks": [note, *tables]}]
+
+
+def _as_companion(results: StudyResults, parts: list[Part], timings: bool) -> list[Part]:
+    """Runs; then for a smooth rail the passing frequencies alone, else all parts."""
+    blocks: list[Any] = [*paragraphs(results.description), run_table(results, timings)]
+    runs = {"title": "Runs", "blocks": blocks}
+    passing = passing_table(results)
+    if passing is None or not is_smooth(results):
+        return [runs, *parts, *_errors(results)]
+    chosen = [p for p in parts if p["title"] == "Passing frequencies"]
+    return [runs, *({**part, "blocks": [passing, *part["blocks"]]} for part in chosen)]

@@ -1,0 +1,36 @@
+"""What a passage prints in the end."""
+
+from rich.box import SIMPLE
+from rich.table import Table
+
+from contactstudy.study.results import StudyResults
+
+_CAPTION = "error: relative L2 of the contact force, of the total and of its dynamic part"
+
+
+def summary(results: StudyResults) -> list[Table]:
+    """What each run cost, and how far it is from the reference."""
+    runs = results.metrics["runs"]
+    table = Table(title=results.title, box=SIMPLE, caption=_CAPTION, collapse_padding=True)
+    table.add_column("run", no_wrap=True)
+    for heading in ("dofs", "steps", "set-up s", "steps s", "MB", "error", "dynamic"):
+        table.add_column(heading, justify="right", no_wrap=True)
+    for name, run in runs.items():
+        force = results.metrics["comparisons"].get(name, {}).get("contact_force", {})
+        table.add_row(
+            name,
+            str(run["dofs"]),
+            str(run["steps"]),
+            f"{run['seconds']['setup']:.1f}",
+            f"{run['seconds']['stepping']:.1f}",
+            "" if run["peak_memory_mb"] is None else f"{run['peak_memory_mb']:.0f}",
+            _percent(force.get("relative_l2"), name == results.reference),
+            _percent(force.get("relative_l2_dynamic"), name == results.reference),
+        )
+    return [table] if runs else []
+
+
+def _percent(value: float | None, reference: bool) -> str:
+    if reference:
+        return "ref."
+    return "" if value is None else f"{100 * value:.2f} %"
