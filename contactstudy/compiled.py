@@ -36,6 +36,8 @@ class Compiled:
             if isinstance(known.get(name), Compiled):  # numba must find its own there
                 known[name] = known[name].compiled
         found: Callable[..., Any] = njit(cache=True, **self._options)(self._function)
+        if known.get(self._function.__name__) is self:  # its own module need not ask again
+            known[self._function.__name__] = found
         return found
 
 

@@ -9,6 +9,7 @@ from typing import Any
 import matplotlib
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.backends.backend_pdf import FigureCanvasPdf
 from matplotlib.figure import Figure
 
 from contactstudy.files import writing
@@ -150,14 +151,19 @@ def save(figure: Figure, folder: Path, name: str) -> list[Path]:
 
     Equal figures give equal bytes: no creation date, no program version in the files.
     """
-    # The layout is found once, not again for each format; it does not depend on the format.
-    figure.draw_without_rendering()
+    # The layout is found once, not again for each format; it does not depend on the format. The
+    # canvases write the same bytes as `Figure.savefig`, which draws everything once more each time.
+    layout = figure.get_layout_engine()
+    if layout is not None:
+        layout.execute(figure)
     figure.set_layout_engine("none")
     pdf, png = folder / f"{name}.pdf", folder / f"{name}.png"
     with writing(pdf) as path:
-        figure.savefig(path, metadata={"CreationDate": None, "Creator": None, "Producer": None})
+        dates = {"CreationDate": None, "Creator": None, "Producer": None}
+        FigureCanvasPdf(figure).print_pdf(path, metadata=dates)
     with writing(png) as path:
-        figure.savefig(path, dpi=PNG_DPI, metadata={"Software": None})
+        figure.set_dpi(PNG_DPI)
+        FigureCanvasAgg(figure).print_png(path, metadata={"Software": None})
     return [pdf, png]
 
 
