@@ -49,19 +49,6 @@ def love_influence(x: Array, y: Array, width: float, breadth: float, modulus: fl
     return np.asarray(corners / (np.pi * modulus))
 
 
-def influence_matrix(x: Array, y: Array, width: float, breadth: float, modulus: float) -> Array:
-    """Approach at the centres of equal rectangles for unit pressure on each, (n, n) [m/Pa].
-
-    Parameters
-    ----------
-    x, y : ndarray (n,)
-        Centres [m].
-    width, breadth, modulus
-        As in `love_influence`.
-    """
-    return love_influence(x[:, None] - x[None, :], y[:, None] - y[None, :], width, breadth, modulus)
-
-
 class GridTooSmallError(InputError):
     """The contact reaches the border of its grid: the grid is too small."""
 

@@ -12,9 +12,9 @@ from contactstudy.halfspace.love import (
     GridTooSmallError,
     LoveGrid,
     contact_pressure,
-    influence_matrix,
     love_influence,
 )
+from contactstudy.verification.cases.patch_filter import influence_matrix
 
 MODULUS = contact_modulus(210e9, 0.3)
 

@@ -6,7 +6,7 @@ import pytest
 from contactstudy.contact.complementarity import PressedForces, press
 from contactstudy.exceptions import InputError
 from contactstudy.halfspace.hertz import contact_modulus, hertz_contact
-from contactstudy.halfspace.love import influence_matrix
+from contactstudy.verification.cases.patch_filter import influence_matrix
 from contactstudy.verification.cases.wave_filter import (
     PatchPoints,
     ellipse_filter,

@@ -11,10 +11,10 @@ from contactstudy.exceptions import InputError
 from contactstudy.geometry.placement import Geometry
 from contactstudy.geometry.pose import Pose
 from contactstudy.halfspace.hertz import contact_modulus, hertz_contact
-from contactstudy.halfspace.love import influence_matrix
 from contactstudy.halfspace.patch_grid import Bodies
 from contactstudy.halfspace.patches import press_wheel
 from contactstudy.profiles.named import rail_curve, wheel_curve
+from contactstudy.verification.cases.patch_filter import influence_matrix
 
 RAIL, MODULUS = rail_curve(), contact_modulus(210e9, 0.3)
 INCLINED = math.atan(1 / 40)

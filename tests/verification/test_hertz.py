@@ -5,7 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from contactstudy.halfspace.hertz import contact_modulus, hertz_contact, line_contact
+from contactstudy.halfspace.hertz import contact_modulus, hertz_contact
+from contactstudy.verification.cases.line_contact import line_contact
 
 # E [GPa], load [kN]: semi-axes [mm], p0 [MPa], approach [um], k_H [N/m^1.5], tangent [GN/m]
 CROSSED = [

@@ -14,12 +14,13 @@ from contactstudy.compare.convergence import fitted_order
 from contactstudy.contact.complementarity import press
 from contactstudy.geometry.interpolation import Rows, grid_rows
 from contactstudy.geometry.quadrature import point_line
-from contactstudy.halfspace.hertz import contact_modulus, hertz_contact, line_contact
+from contactstudy.halfspace.hertz import contact_modulus, hertz_contact
 from contactstudy.halfspace.pressure_field import recovered_pressure
 from contactstudy.halfspace.subsurface import stress_maxima
 from contactstudy.solids.stress import maximum_shear, von_mises
 from contactstudy.verification.cases.graded import graded_lines
 from contactstudy.verification.cases.halfspace_block import HalfSpaceBlock
+from contactstudy.verification.cases.line_contact import line_contact
 from contactstudy.verification.cases.strip import Strip
 
 MODULUS = contact_modulus()

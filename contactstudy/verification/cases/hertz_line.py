@@ -10,10 +10,11 @@ from contactstudy.compare.convergence import fitted_order
 from contactstudy.contact.complementarity import press
 from contactstudy.geometry.interpolation import SplineLine
 from contactstudy.geometry.quadrature import point_line
-from contactstudy.halfspace.hertz import contact_modulus, line_contact
+from contactstudy.halfspace.hertz import contact_modulus
 from contactstudy.plot.curves import Plot, curve
 from contactstudy.verification.cases.graded import graded_lines
 from contactstudy.verification.cases.hertz_ellipses import APPROACH_BAND, BAND, HERTZ, PENALTY
+from contactstudy.verification.cases.line_contact import line_contact
 from contactstudy.verification.cases.strip import Strip
 from contactstudy.verification.check import CaseResult, Check, ResultTable
 

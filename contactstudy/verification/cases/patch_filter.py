@@ -7,7 +7,7 @@ import numpy as np
 from contactstudy.arrays import Array
 from contactstudy.contact.complementarity import press
 from contactstudy.halfspace.hertz import contact_modulus, hertz_contact
-from contactstudy.halfspace.love import influence_matrix
+from contactstudy.halfspace.love import love_influence
 from contactstudy.plot.curves import Plot, curve
 from contactstudy.solvers.at_rest import bodies_at_rest
 from contactstudy.study.kinds.passage import build
@@ -51,6 +51,19 @@ METHOD = (
     "with an amplitude of 10 µm, and the default study's own rail and wheel at 2 mm. On these the "
     "length of the patch comes in steps of the Gauss points."
 )
+
+
+def influence_matrix(x: Array, y: Array, width: float, breadth: float, modulus: float) -> Array:
+    """Approach at the centres of equal rectangles for unit pressure on each, (n, n) [m/Pa].
+
+    Parameters
+    ----------
+    x, y : ndarray (n,)
+        Centres [m].
+    width, breadth, modulus
+        As in `love_influence`.
+    """
+    return love_influence(x[:, None] - x[None, :], y[:, None] - y[None, :], width, breadth, modulus)
 
 
 def half_spaces() -> tuple[Array, Array, Array]:
