@@ -66,7 +66,7 @@ def patch_area(
 
 
 @compiled
-def _radius(x: np.ndarray, y: np.ndarray, gap: np.ndarray, mirrored: bool, limit: float) -> float:
+def _radius(x: Array, y: Array, gap: Array, mirrored: bool, limit: float) -> float:
     """rho_0 from lines up to a limit of t, or -1 for a patch that reaches an outer line."""
     nx, ny = gap.shape
     # between the plane of symmetry and the first line nothing changes across
@@ -87,9 +87,7 @@ def _radius(x: np.ndarray, y: np.ndarray, gap: np.ndarray, mirrored: bool, limit
 
 
 @compiled
-def _edge(
-    t: np.ndarray, dx: np.ndarray, dy: np.ndarray, limit: float, spacing: float, halves: float
-) -> float:
+def _edge(t: Array, dx: Array, dy: Array, limit: float, spacing: float, halves: float) -> float:
     """rho_0 from two lines of equal t; where the grid ends before, from the outermost."""
     low, high, level = 0.0, limit, limit
     outer = inner = 0.0
@@ -111,7 +109,7 @@ def _edge(
 
 
 @compiled
-def area_below(t: np.ndarray, dx: np.ndarray, dy: np.ndarray, level: float) -> float:
+def area_below(t: Array, dx: Array, dy: Array, level: float) -> float:
     """Area where an interpolated function is below a level.
 
     The function is linear on the four triangles between the sides of a rectangle and its centre,

@@ -11,6 +11,7 @@ from typing import Annotated, ClassVar
 
 import numpy as np
 
+from contactstudy.arrays import Array
 from contactstudy.exceptions import NumericalError
 from contactstudy.validation import Above, Parameters, Unit
 
@@ -72,11 +73,11 @@ ContactLaw = LinearSpring | RigidContact | HertzSpring | MovingForce
 
 def contact_forces(
     law: ContactLaw,
-    compliance: np.ndarray,
-    free_gap: np.ndarray,
-    static_loads: np.ndarray,
+    compliance: Array,
+    free_gap: Array,
+    static_loads: Array,
     bilateral: bool = False,
-) -> np.ndarray:
+) -> Array:
     """Forces of all wheels that satisfy the law at the end of a step.
 
     Parameters
@@ -134,13 +135,13 @@ def _force_of_one(
     return 0.0 if force < 0.0 and not bilateral else force
 
 
-def _linear_many(flexibility: np.ndarray, target: np.ndarray, bilateral: bool) -> np.ndarray:
+def _linear_many(flexibility: Array, target: Array, bilateral: bool) -> Array:
     """Solve flexibility @ lambda = target, or its complementarity problem with lambda >= 0.
 
     The linear solution counts if nowhere tensile. Otherwise projected Gauss-Seidel sweeps, which
     converge for every positive definite matrix, find who is apart.
     """
-    force = np.linalg.solve(flexibility, target)
+    force = np.asarray(np.linalg.solve(flexibility, target))
     if bilateral or not np.any(force < 0.0):
         return force
     force = np.maximum(force, 0.0)
@@ -176,13 +177,13 @@ def _hertz_one(k_hertz: float, compliance: float, free_gap: float) -> float:
     return k_hertz * d * math.sqrt(d)
 
 
-def _hertz_many(k_hertz: float, compliance: np.ndarray, free_gap: np.ndarray) -> np.ndarray:
+def _hertz_many(k_hertz: float, compliance: Array, free_gap: Array) -> Array:
     """Newton with a line search on g* + W k_H d_+^(3/2) + d = 0, d < 0 being an open gap."""
     n = len(free_gap)
     if not np.all(np.isfinite(free_gap)):
         return np.full(n, np.nan)  # reported by the stepper, with step and position
 
-    def residual(d: np.ndarray) -> np.ndarray:
+    def residual(d: Array) -> Array:
         return free_gap + compliance @ (k_hertz * np.maximum(d, 0.0) ** 1.5) + d
 
     d = -free_gap

@@ -7,6 +7,7 @@ import numpy as np
 import scipy.linalg
 import scipy.sparse as sp
 
+from contactstudy.arrays import Array, IntArray
 from contactstudy.compiled import compiled, compiled_in_any_order
 from contactstudy.exceptions import NumericalError
 
@@ -92,7 +93,7 @@ class Factor:
             ) from error
 
     @cached_property
-    def _blocks(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def _blocks(self) -> tuple[Array, Array, IntArray]:
         """L in blocks of 8 rows: left of each diagonal block, its inverse, leading zeros.
 
         A row by row solution waits for every single dot product; the eight of a block do not wait
@@ -115,7 +116,7 @@ class Factor:
         lead = np.where(filled.any(axis=1), filled.argmax(axis=1), width)
         return left, np.tril(np.linalg.inv(blocks[:, :, width:])), lead
 
-    def solve(self, b: np.ndarray) -> np.ndarray:
+    def solve(self, b: Array) -> Array:
         """Solve for one or several right-hand sides, (n,) or (n, k); b is left as it is."""
         left, inverse, lead = self._blocks
         n_blocks, _, width = left.shape
@@ -136,9 +137,7 @@ class Factor:
 
 
 @compiled_in_any_order
-def _forward(
-    left: np.ndarray, inverse: np.ndarray, lead: np.ndarray, x: np.ndarray, first: int, stop: int
-) -> None:
+def _forward(left: Array, inverse: Array, lead: IntArray, x: Array, first: int, stop: int) -> None:
     """L y = b on blocks first .. stop - 1: y_i = D_i^-1 (b_i - P_i y_before).
 
     x holds b on entry, below as many zeros as `left` is wide.
@@ -164,9 +163,7 @@ def _forward(
 
 
 @compiled_in_any_order
-def _backward(
-    left: np.ndarray, inverse: np.ndarray, lead: np.ndarray, x: np.ndarray, first: int, stop: int
-) -> None:
+def _backward(left: Array, inverse: Array, lead: IntArray, x: Array, first: int, stop: int) -> None:
     """L^T x = y on blocks stop - 1 .. first: x_i = D_i^-T y_i, y_before -= P_i^T x_i."""
     width = left.shape[2]
     y = np.empty(8)
@@ -197,7 +194,7 @@ def _backward(
 
 @compiled
 def _solve_near(
-    left: np.ndarray, inverse: np.ndarray, lead: np.ndarray, x: np.ndarray, first: int, last: int
+    left: Array, inverse: Array, lead: IntArray, x: Array, first: int, last: int
 ) -> None:
     """Solve for a load on blocks first .. last - 1 only.
 
@@ -220,6 +217,6 @@ def _solve_near(
 
 
 @compiled
-def _above(x: np.ndarray, start: int, stop: int, bound: float) -> bool:
+def _above(x: Array, start: int, stop: int, bound: float) -> bool:
     """Whether any of x[start:stop] is larger than the bound."""
     return bool(np.abs(x[start:stop]).max() > bound)

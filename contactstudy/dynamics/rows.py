@@ -2,11 +2,12 @@
 
 import numpy as np
 
+from contactstudy.arrays import Array, IntArray
 from contactstudy.compiled import compiled
 
 
 @compiled
-def row_values(dofs: np.ndarray, weights: np.ndarray, u: np.ndarray) -> np.ndarray:
+def row_values(dofs: IntArray, weights: Array, u: Array) -> Array:
     """Values of m rows at a vector: sum over k of weights (m, k) times u[dofs (m, k)]."""
     values = np.zeros(dofs.shape[0])
     for i in range(dofs.shape[0]):
@@ -16,7 +17,7 @@ def row_values(dofs: np.ndarray, weights: np.ndarray, u: np.ndarray) -> np.ndarr
 
 
 @compiled
-def dense_rows(dofs: np.ndarray, weights: np.ndarray, n: int) -> np.ndarray:
+def dense_rows(dofs: IntArray, weights: Array, n: int) -> Array:
     """The rows written out, (m, n); equal dofs in a row add up."""
     rows = np.zeros((dofs.shape[0], n))
     for i in range(dofs.shape[0]):
@@ -26,7 +27,7 @@ def dense_rows(dofs: np.ndarray, weights: np.ndarray, n: int) -> np.ndarray:
 
 
 @compiled
-def row_products(dofs: np.ndarray, weights: np.ndarray, vectors: np.ndarray) -> np.ndarray:
+def row_products(dofs: IntArray, weights: Array, vectors: Array) -> Array:
     """Every row at every vector (p, n), as (m, p)."""
     products = np.zeros((dofs.shape[0], vectors.shape[0]))
     for i in range(dofs.shape[0]):

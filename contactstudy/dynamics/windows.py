@@ -3,9 +3,10 @@
 import numpy as np
 import scipy.sparse as sp
 
+from contactstudy.arrays import Array, IntArray
 from contactstudy.compiled import compiled_in_any_order
 
-Windows = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
+Windows = tuple[IntArray, IntArray, IntArray, Array]
 
 
 def windows(matrix: sp.csr_array) -> Windows:
@@ -53,9 +54,9 @@ def windows(matrix: sp.csr_array) -> Windows:
 @compiled_in_any_order
 def add_product(
     matrix: Windows,
-    coefficients: np.ndarray,
-    motion: tuple[np.ndarray, np.ndarray, np.ndarray],
-    y: np.ndarray,
+    coefficients: Array,
+    motion: tuple[Array, Array, Array],
+    y: Array,
 ) -> None:
     """y += A (c0 u + c1 v + c2 a) for a matrix A in windows and a motion (u, v, a)."""
     first, width, begin, values = matrix

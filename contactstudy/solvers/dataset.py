@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from contactstudy.arrays import Array
 from contactstudy.solvers.journey import Journey
 
 if TYPE_CHECKING:
@@ -33,10 +34,10 @@ SIGNALS: dict[str, tuple[str, str]] = {
 
 def history_dataset(
     journey: Journey,
-    positions: np.ndarray,
-    histories: Mapping[str, np.ndarray],
+    positions: Array,
+    histories: Mapping[str, Array],
     *,
-    station_displacement: np.ndarray | None = None,
+    station_displacement: Array | None = None,
     attrs: Mapping[str, object] | None = None,
 ) -> xr.Dataset:
     """Label the histories of a run.
@@ -62,7 +63,7 @@ def history_dataset(
 
     one_wheel = positions.shape[1] == 1
 
-    def variable(values: np.ndarray, unit: str, text: str) -> xr.Variable:
+    def variable(values: Array, unit: str, text: str) -> xr.Variable:
         attributes = {"units": unit, "long_name": text}
         values = np.asarray(values)
         if values.ndim == 1:

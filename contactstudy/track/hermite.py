@@ -12,6 +12,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from contactstudy.arrays import Array
+
 
 @dataclass(frozen=True)
 class BeamElement:
@@ -42,7 +44,7 @@ class BeamElement:
         """Ratio of bending to shear stiffness, 12 EI / (kappa G A L^2)."""
         return 12.0 * self.bending_stiffness / (self.shear_stiffness * self.length**2)
 
-    def deflection_shapes(self, xi: np.ndarray) -> np.ndarray:
+    def deflection_shapes(self, xi: Array) -> Array:
         """Shape functions N(xi) of the deflection, xi = x/L in 0..1; shape xi.shape + (4,)."""
         xi = np.asarray(xi, dtype=float)
         L, phi = self.length, self.phi
@@ -52,7 +54,7 @@ class BeamElement:
         n4 = L * (-(xi**2) + xi**3 - 0.5 * phi * (xi - xi**2))
         return np.stack((n1, n2, n3, n4), axis=-1) / (1.0 + phi)
 
-    def rotation_shapes(self, xi: np.ndarray) -> np.ndarray:
+    def rotation_shapes(self, xi: Array) -> Array:
         """Shape functions of the section's rotation; shape xi.shape + (4,) [1/m], [1]."""
         xi = np.asarray(xi, dtype=float)
         L, phi = self.length, self.phi
@@ -61,7 +63,7 @@ class BeamElement:
         n4 = -2 * xi + 3 * xi**2 + phi * xi
         return np.stack((n1, n2, -n1, n4), axis=-1) / (1.0 + phi)
 
-    def stiffness(self) -> np.ndarray:
+    def stiffness(self) -> Array:
         """Stiffness matrix (4, 4), bending and shear."""
         L, phi = self.length, self.phi
         a, b = (4.0 + phi) * L**2, (2.0 - phi) * L**2
@@ -75,31 +77,31 @@ class BeamElement:
         )
         return self.bending_stiffness / (L**3 * (1.0 + phi)) * k
 
-    def mass(self) -> np.ndarray:
+    def mass(self) -> Array:
         """Consistent mass matrix (4, 4), with rotary inertia."""
         # M = int rho A N^T N + rho I Nth^T Nth dx
         translation = self.mass_per_length * self.gram(self.deflection_shapes)
         return translation + self.rotary_inertia * self.gram(self.rotation_shapes)
 
-    def foundation(self) -> np.ndarray:
+    def foundation(self) -> Array:
         """Integral of N^T N over the element, (4, 4) [m]: a uniform foundation of unit value."""
         return self.gram(self.deflection_shapes)
 
-    def gram(self, shapes: Callable[[np.ndarray], np.ndarray]) -> np.ndarray:
+    def gram(self, shapes: Callable[[Array], Array]) -> Array:
         """Integral over the element of the outer product of shape functions, (4, 4)."""
         # products of two cubics: four Gauss points integrate degree 7 exactly
         points, weights = np.polynomial.legendre.leggauss(4)
         n = shapes(0.5 * (1.0 + points))
         return 0.5 * self.length * np.einsum("g,gi,gj->ij", weights, n, n)
 
-    def average_shapes(self, xi_from: float, xi_to: float) -> np.ndarray:
+    def average_shapes(self, xi_from: float, xi_to: float) -> Array:
         """Integral of N over part of the element, (4,) [m]."""
         points, weights = np.polynomial.legendre.leggauss(2)
         half = 0.5 * (xi_to - xi_from)
         n = self.deflection_shapes(0.5 * (xi_from + xi_to) + half * points)
         return half * self.length * weights @ n
 
-    def clamped_compliance(self, xi: np.ndarray) -> np.ndarray:
+    def clamped_compliance(self, xi: Array) -> Array:
         """Deflection under a unit force of the element clamped at both nodes [m/N].
 
         It is what the shape functions leave out at the load. For Euler-Bernoulli's theory it is

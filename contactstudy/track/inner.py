@@ -13,6 +13,7 @@ from functools import cached_property, lru_cache
 
 import numpy as np
 
+from contactstudy.arrays import Array
 from contactstudy.track.hermite import BeamElement
 
 
@@ -35,14 +36,14 @@ class InnerShape:
     footprint: float
 
     @cached_property
-    def ends(self) -> np.ndarray:
+    def ends(self) -> Array:
         """Ends of up to three pieces of the element, with the force on one of them [m]."""
         length = self.element.length
         inner = [x for x in (self.start, self.stop) if 1e-9 * length < x < (1.0 - 1e-9) * length]
         return np.array([0.0, *inner, length])
 
     @cached_property
-    def _pieces(self) -> tuple[list[BeamElement], np.ndarray]:
+    def _pieces(self) -> tuple[list[BeamElement], Array]:
         """The pieces as elements, and the deflections and rotations at their ends."""
         pieces = [replace(self.element, length=float(part)) for part in np.diff(self.ends)]
         n = 2 * len(self.ends)
@@ -60,7 +61,7 @@ class InnerShape:
         middle = 0.5 * (self.ends[piece] + self.ends[piece + 1])
         return bool(self.start < middle < self.stop)
 
-    def __call__(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def __call__(self, x: Array) -> tuple[Array, Array]:
         """Deflection [m/N] and rotation [1/N] at distances x from the element's left node."""
         x = np.asarray(x, dtype=float)
         pieces, nodal = self._pieces
@@ -80,7 +81,7 @@ class InnerShape:
                 theta[here] += q * s * (L - s) * (L - 2.0 * s) / (12.0 * EI)
         return w, theta
 
-    def quadrature(self, *breaks: float) -> tuple[np.ndarray, np.ndarray]:
+    def quadrature(self, *breaks: float) -> tuple[Array, Array]:
         """Gauss points and weights, exact for products of two shapes (degree 8 in pieces)."""
         ends = np.unique(np.concatenate((self.ends, breaks)))
         points, weights = np.polynomial.legendre.leggauss(5)
@@ -106,7 +107,7 @@ def gram(shape: InnerShape, other: InnerShape, per_length: float, rotary: float)
 
 
 @lru_cache(maxsize=1024)
-def gram_with_nodes(shape: InnerShape, per_length: float, rotary: float) -> np.ndarray:
+def gram_with_nodes(shape: InnerShape, per_length: float, rotary: float) -> Array:
     """Return the same integral between a shape and the nodal shape functions, (4,)."""
     points, weights = shape.quadrature()
     w, theta = shape(points)

@@ -7,6 +7,7 @@ from functools import cached_property
 import numpy as np
 import scipy.sparse as sp
 
+from contactstudy.arrays import Array, IntArray
 from contactstudy.track.hermite import BeamElement
 from contactstudy.track.inner import InnerShape, average, gram, gram_with_nodes
 
@@ -16,7 +17,7 @@ _WHOLE = 0.95
 
 
 def pad_parts(
-    footprint: np.ndarray, element_length: float, n_elements: int
+    footprint: Array, element_length: float, n_elements: int
 ) -> Iterator[tuple[int, float, float]]:
     """Elements under a footprint (first and last X), and the part covered from the left node on.
 
@@ -47,13 +48,13 @@ class InnerDofs:
     n_elements : int
     """
 
-    elements: np.ndarray
-    pads: np.ndarray
+    elements: IntArray
+    pads: IntArray
     shapes: tuple[InnerShape, ...]
     n_elements: int
 
     @classmethod
-    def of(cls, footprints: np.ndarray, element: BeamElement, n_elements: int) -> "InnerDofs":
+    def of(cls, footprints: Array, element: BeamElement, n_elements: int) -> "InnerDofs":
         """Dofs for n_elements equal elements with pads, (n_pads, 2) first and last X."""
         whole = round(element.length, 12)
         found: list[tuple[int, int, InnerShape]] = []
@@ -77,12 +78,12 @@ class InnerDofs:
         )
 
     @cached_property
-    def flexibility(self) -> np.ndarray:
+    def flexibility(self) -> Array:
         """(nb,) average of each shape over its own footprint, for its 1 N [m/N]."""
         return np.array([average(shape, shape) for shape in self.shapes])
 
     @cached_property
-    def slots(self) -> np.ndarray:
+    def slots(self) -> IntArray:
         """(n_elements, most on one element) dofs of each element, -1 for none."""
         counts = np.bincount(self.elements, minlength=self.n_elements)
         slots = np.full((self.n_elements, int(counts.max())), -1, dtype=np.int64)
@@ -103,7 +104,7 @@ class InnerDofs:
             yield e, i, j, int(self.slots[e, i]), int(self.slots[e, j])
 
     @cached_property
-    def _energies(self) -> np.ndarray:
+    def _energies(self) -> Array:
         """(n_elements, k, k) stiffness of the dofs of each element, identity for no dof.
 
         The energy of two shapes is the work of the one's force on the other.
@@ -113,7 +114,7 @@ class InnerDofs:
             energies[e, i, j] = self._average(one, other) / self.flexibility[one]
         return energies
 
-    def pad_weights(self, pad: int) -> tuple[np.ndarray, np.ndarray]:
+    def pad_weights(self, pad: int) -> tuple[IntArray, Array]:
         """Dofs and weights with which the inner dofs enter the average over one pad.
 
         A pad of no length stands on a node, where every inner shape is zero: it has none.
@@ -127,7 +128,7 @@ class InnerDofs:
         dofs, weights = [dof for dof, _ in pairs], [weight for _, weight in pairs]
         return np.array(dofs, dtype=np.int64), np.array(weights, dtype=float)
 
-    def values(self, element: np.ndarray, xi: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def values(self, element: IntArray, xi: Array) -> tuple[IntArray, Array]:
         """Dofs (m, k), -1 for none, and the values of their shapes (m, k) at local xi (m,)."""
         dofs = self.slots[element]
         values = np.zeros(dofs.shape)
@@ -138,7 +139,7 @@ class InnerDofs:
             values[rows, columns] = deflection / self.flexibility[dofs[rows, columns]]
         return dofs, values
 
-    def compliance(self, element: np.ndarray, xi: np.ndarray) -> np.ndarray:
+    def compliance(self, element: IntArray, xi: Array) -> Array:
         """Share of the inner dofs in the compliance of the clamped element, (m,) [m/N]."""
         _, values = self.values(element, xi)
         inverse = np.linalg.inv(self._energies)[element]

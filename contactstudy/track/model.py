@@ -10,6 +10,7 @@ from typing import Annotated, Literal
 
 import numpy as np
 
+from contactstudy.arrays import Array
 from contactstudy.track.rail import Direction, GivenRail, Rail
 from contactstudy.validation import (
     Above,
@@ -183,14 +184,14 @@ class Track(Parameters):
         return (self.n_bays // 2 + 0.5) * self.bay_length
 
     @property
-    def support_positions(self) -> np.ndarray:
+    def support_positions(self) -> Array:
         """X of the supports, (n_bays + 1,) m; empty without discrete supports."""
         if not isinstance(self.support, DiscreteSupports):
             return np.empty(0)
         return np.linspace(0.0, self.length, self.n_bays + 1)
 
     @property
-    def pad_footprints(self) -> np.ndarray:
+    def pad_footprints(self) -> Array:
         """First and last X of each pad's footprint, (n_supports, 2) m, cut off at the ends."""
         if not isinstance(self.support, DiscreteSupports):
             return np.empty((0, 2))

@@ -4,12 +4,13 @@ import numpy as np
 import scipy.linalg
 import scipy.sparse as sp
 
+from contactstudy.arrays import Array
 from contactstudy.exceptions import NumericalError
 from contactstudy.track.discrete import DiscreteTrack
 
 
 def receptance(
-    track: DiscreteTrack, x: float, frequency: np.ndarray, at: float | None = None
+    track: DiscreteTrack, x: float, frequency: Array, at: float | None = None
 ) -> np.ndarray:
     """Displacement per harmonic unit force on the rail, exp(+i omega t).
 

@@ -1,6 +1,5 @@
 """The track with its rail as a three-dimensional solid: a chain of condensed cells."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
@@ -12,12 +11,10 @@ from contactstudy.solids.cell import RailCell, section_mesh_of
 from contactstudy.solids.pair import CellPair, cell_pair
 from contactstudy.solids.recipe import CellRecipe
 from contactstudy.track.cell_chain import MOTIONS, CellChain
-from contactstudy.track.discrete import AssembledTrack
 from contactstudy.track.model import DiscreteSupports, Rail, Track, WinklerFoundation
-from contactstudy.track.rail import Direction
 from contactstudy.track.stretch import RailStretch, SectionResponse
 from contactstudy.track.supports import SupportedRail, add_supports
-from contactstudy.track.top_load import top_load_compliance
+from contactstudy.track.top_load import AssembledMesh
 
 
 @lru_cache(maxsize=8)
@@ -33,7 +30,7 @@ def solid_rail(recipe: CellRecipe) -> Rail:
 
 
 @dataclass(frozen=True)
-class SolidTrack(AssembledTrack):
+class SolidTrack(AssembledMesh):
     """A discretised track whose rail is a chain of equal condensed cells.
 
     Parameters
@@ -102,11 +99,6 @@ class SolidTrack(AssembledTrack):
         """Number of cells."""
         return round(self.track.length / self.recipe.length)
 
-    @property
-    def direction(self) -> Direction:
-        """Point contact on a meshed rail is vertical."""
-        return "Z"
-
     def rail_rows(self, x: Array) -> tuple[IntArray, Array]:
         """Rows that give the deflection of the rail's centre line at X.
 
@@ -141,14 +133,6 @@ class SolidTrack(AssembledTrack):
             + 2 * t * (1 - t) * following[slices]
             + t**2 * own[slices + 1]
         )
-
-    def top_load_compliance(self, x: Array) -> Array:
-        """See `DiscreteTrack`."""
-        return self._top_load(x)
-
-    @cached_property
-    def _top_load(self) -> Callable[[Array], Array]:
-        return top_load_compliance(self)
 
     def stretch(self, x: float, half_length: float) -> RailStretch:
         """Running surface around X, as the contact sees it.

@@ -12,6 +12,7 @@ from typing import Literal
 import numpy as np
 import scipy.sparse as sp
 
+from contactstudy.arrays import Array, IntArray
 from contactstudy.track.hermite import BeamElement
 from contactstudy.track.model import Direction, DiscreteSupports, Slab, Track
 
@@ -23,8 +24,8 @@ PadMotion = Literal["Z", "Y", "roll"]
 class PadRow:
     """Average motion of the rail's foot over one pad's footprint: weights @ u[dofs]."""
 
-    dofs: np.ndarray
-    weights: np.ndarray
+    dofs: IntArray
+    weights: Array
 
 
 @dataclass(frozen=True)
@@ -42,14 +43,14 @@ class SupportedRail:
     mass: sp.csr_array
     damping: sp.csr_array
     stiffness: sp.csr_array
-    rail_dofs: np.ndarray
+    rail_dofs: IntArray
 
 
 def add_supports(
     mass: sp.sparray,
     damping: sp.sparray | None,
     stiffness: sp.sparray,
-    rail_keys: np.ndarray,
+    rail_keys: Array,
     track: Track,
     pads: Mapping[PadMotion, Sequence[PadRow]],
 ) -> SupportedRail:
@@ -114,8 +115,8 @@ class _Pads:
     rows: Sequence[PadRow]
     pad_stiffness: float
     pad_damping: float
-    seats: np.ndarray | None
-    keys: np.ndarray
+    seats: IntArray | None
+    keys: Array
     mass: sp.csr_array
     damping: sp.csr_array
     stiffness: sp.csr_array
@@ -145,7 +146,7 @@ def _embedded(part: sp.sparray | None, n: int, begin: int) -> sp.csr_array:
     return sp.csr_array((coo.data, (rows + begin, columns + begin)), shape=(n, n))
 
 
-def _pad_matrix(pad_rows: Sequence[PadRow], seats: np.ndarray | None, n: int) -> sp.csr_array:
+def _pad_matrix(pad_rows: Sequence[PadRow], seats: IntArray | None, n: int) -> sp.csr_array:
     """Elongation of every pad as a matrix over all dofs, (n_supports, n)."""
     count = len(pad_rows)
     rows = np.concatenate([np.full(len(pad.dofs), j) for j, pad in enumerate(pad_rows)])
@@ -161,7 +162,7 @@ def _pad_matrix(pad_rows: Sequence[PadRow], seats: np.ndarray | None, n: int) ->
 
 def _layer(
     support: DiscreteSupports, track: Track, direction: Direction
-) -> tuple[np.ndarray, np.ndarray, tuple[sp.csr_array, sp.csr_array, sp.csr_array]]:
+) -> tuple[IntArray, Array, tuple[sp.csr_array, sp.csr_array, sp.csr_array]]:
     """Seat dofs, dof positions and (M, C, K) of all that is below the pads."""
     layer, positions = support.layer, track.support_positions
     n_seats = len(positions)
@@ -194,7 +195,7 @@ def _layer(
     )
 
 
-def chain_of(element_matrix: np.ndarray, n_elements: int) -> sp.csr_array:
+def chain_of(element_matrix: Array, n_elements: int) -> sp.csr_array:
     """Assemble equal two-node elements in a row, 2 dofs a node, (2n+2, 2n+2)."""
     dofs = 2 * np.arange(n_elements)[:, None] + np.arange(4)
     rows = np.repeat(dofs, 4, axis=1).ravel()

@@ -17,16 +17,37 @@ which is that of surface contact less what the spring stands for.
 """
 
 from collections.abc import Callable
+from functools import cached_property
+from typing import cast
 
 import numpy as np
 
 from contactstudy.arrays import Array
 from contactstudy.dynamics.banded import Factor
+from contactstudy.track.discrete import AssembledTrack
 from contactstudy.track.meshed import MeshedTrack
 from contactstudy.track.model import DiscreteSupports
+from contactstudy.track.rail import Direction
 
 _SAMPLES = 25
 """Places on half a bay; the pair's flexibility is even about supports and mid-bay."""
+
+
+class AssembledMesh(AssembledTrack):
+    """An assembled track with a meshed rail, a `MeshedTrack`, under vertical loads."""
+
+    @property
+    def direction(self) -> Direction:
+        """Point contact on a meshed rail is vertical."""
+        return "Z"
+
+    def top_load_compliance(self, x: Array) -> Array:
+        """See `DiscreteTrack`."""
+        return self._top_load(x)
+
+    @cached_property
+    def _top_load(self) -> Callable[[Array], Array]:
+        return top_load_compliance(cast(MeshedTrack, self))
 
 
 def top_load_compliance(track: MeshedTrack) -> Callable[[Array], Array]:

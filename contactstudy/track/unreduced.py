@@ -3,7 +3,6 @@
 Same mesh, same supports, no reduction. Only short rails are practical.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -19,16 +18,14 @@ from contactstudy.solids.recipe import CellRecipe
 from contactstudy.solids.section_mesh import SectionMesh
 from contactstudy.solids.section_rows import SectionRows
 from contactstudy.track.cell_chain import MOTIONS
-from contactstudy.track.discrete import AssembledTrack
 from contactstudy.track.model import Track, WinklerFoundation
-from contactstudy.track.rail import Direction
 from contactstudy.track.stretch import RailStretch, SectionResponse
 from contactstudy.track.supports import PadRow, SupportedRail, add_supports
-from contactstudy.track.top_load import top_load_compliance
+from contactstudy.track.top_load import AssembledMesh
 
 
 @dataclass(frozen=True)
-class UnreducedTrack(AssembledTrack):
+class UnreducedTrack(AssembledMesh):
     """A discretised track that keeps all nodes of the rail's mesh.
 
     Parameters
@@ -75,11 +72,6 @@ class UnreducedTrack(AssembledTrack):
         """Slices of the whole track."""
         return round(self.track.length / self.thickness)
 
-    @property
-    def direction(self) -> Direction:
-        """Point contact on a meshed rail is vertical."""
-        return "Z"
-
     def rail_rows(self, x: Array) -> tuple[IntArray, Array]:
         """Rows of the section's mean deflection at X, as `SolidTrack.rail_rows`."""
         index, t = self._locate(np.atleast_1d(np.asarray(x, dtype=float)))
@@ -92,14 +84,6 @@ class UnreducedTrack(AssembledTrack):
     def local_compliance(self, x: Array) -> Array:
         """Zero, (m,) [m/N]: no dof of the mesh is left out."""
         return np.zeros(np.atleast_1d(x).shape)
-
-    def top_load_compliance(self, x: Array) -> Array:
-        """See `DiscreteTrack`."""
-        return self._top_load(x)
-
-    @cached_property
-    def _top_load(self) -> Callable[[Array], Array]:
-        return top_load_compliance(self)
 
     def stretch(self, x: float, half_length: float) -> RailStretch:
         """Running surface around X, as `SolidTrack.stretch`, with no residual left."""
