@@ -15,7 +15,7 @@ import pytest
 from threadpoolctl import threadpool_limits
 
 from contactstudy.contact.surface_contact import SurfaceContact
-from contactstudy.export.calculix import calculix_input
+from contactstudy.export.calculix import PressLoading, calculix_input
 from contactstudy.export.press_mesh import press_mesh
 from contactstudy.halfspace.hertz import contact_modulus, hertz_contact
 from contactstudy.solids.cell import condense
@@ -63,9 +63,8 @@ def test_static_press(benchmark):
     press_time = float(np.median(times))
 
     start = hertz_contact(LOAD, contact_modulus(), WHEEL.dimensions.radius, 0.3).approach
-    text = calculix_input(
-        press_mesh(CELL, WHEEL, LENGTH), LOAD, PENALTY, 210e9, 0.3, start, ["benchmark"]
-    )
+    loading = PressLoading(LOAD, PENALTY, start)
+    text = calculix_input(press_mesh(CELL, WHEEL, LENGTH), loading, 210e9, 0.3, ["benchmark"])
     theirs = run_calculix(text, PENALTY)
     approach = curve.solutions[0].approach
     condensing = rail_time + wheel_time

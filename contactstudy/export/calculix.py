@@ -1,6 +1,7 @@
 """CalculiX input file of the static press. Units of the file: mm, N, MPa."""
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
 from contactstudy.arrays import IntArray
 from contactstudy.export.press_mesh import PressMesh
@@ -9,13 +10,47 @@ from contactstudy.validation import positive, raise_if
 UNITS = "mm, N, MPa"
 
 
+@dataclass(frozen=True)
+class PressLoading:
+    """How a wheel is pressed on its rail.
+
+    Attributes
+    ----------
+    load : float
+        Vertical wheel load in N; of both halves, so that half of it acts on a half model.
+    penalty : float
+        Pressure per penetration in Pa/m.
+    start : float
+        Displacement of the hub in the first step in m, enough to bring some faces together.
+    repeats : int
+        Further steps at the same load. CalculiX pairs the faces once a step, as the bodies stand
+        at its beginning; where an inclined force moves these sideways, the pairs are right only
+        once a step moves them no more. What `start` was then no longer shows.
+
+    Raises
+    ------
+    InputError
+        If load, penalty or start is not positive.
+    """
+
+    load: float
+    penalty: float
+    start: float
+    repeats: int = 0
+
+    def __post_init__(self) -> None:
+        raise_if(
+            positive("load", self.load, "N")
+            + positive("penalty", self.penalty, "Pa/m")
+            + positive("start", self.start, "m")
+        )
+
+
 def calculix_input(
     mesh: PressMesh,
-    load: float,
-    penalty: float,
+    loading: PressLoading,
     youngs_modulus: float,
     poisson_ratio: float,
-    start: float,
     header: Sequence[str] = (),
 ) -> str:
     """Text of an input file that presses the wheel on the rail with a load on its hub.
@@ -28,65 +63,26 @@ def calculix_input(
     Parameters
     ----------
     mesh : PressMesh
-    load : float
-        Vertical wheel load in N; of both halves, so that half of it acts on a half model.
-    penalty : float
-        Pressure per penetration in Pa/m.
+    loading : PressLoading
     youngs_modulus, poisson_ratio : float
         Of both bodies, E in Pa.
-    start : float
-        Displacement of the hub in the first step in m, enough to bring some faces together.
-        The result does not depend on it.
     header : sequence of str
         Comment lines.
 
     Returns
     -------
     str
-
-    Raises
-    ------
-    InputError
-        If load, penalty or start is not positive.
     """
-    raise_if(
-        positive("load", load, "N")
-        + positive("penalty", penalty, "Pa/m")
-        + positive("start", start, "m")
-    )
     held = (*("SYMMETRY, 2, 2",) * mesh.symmetric, "ENDS, 1, 3", "BORE, 1, 2")
     share, whose = (0.5, ", half of it on this half model") if mesh.symmetric else (1.0, "")
-    lines = [
-        *(f"** {line}".rstrip() for line in header),
-        f"** units: {UNITS}",
-        *_mesh(mesh),
-        "*MATERIAL, NAME=STEEL",
-        "*ELASTIC",
-        f"{1e-6 * youngs_modulus:.12g}, {poisson_ratio:.12g}",
-        "*SOLID SECTION, ELSET=RAIL, MATERIAL=STEEL",
-        "*SOLID SECTION, ELSET=WHEEL, MATERIAL=STEEL",
-        "*SURFACE INTERACTION, NAME=PENALTY",
-        "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR",
-        f"{1e-9 * penalty:.12g}",  # 1 Pa/m = 1e-9 MPa/mm
-        "*CONTACT PAIR, INTERACTION=PENALTY, TYPE=SURFACE TO SURFACE",
-        "TREAD, RUNNING",
-        *_hub(mesh.bore),
-        "** the hub comes down by a given amount, to close the gap",
-        "*STEP",
-        "*STATIC",
-        "*BOUNDARY",
-        *held,
-        f"HUB, 3, 3, {-1e3 * start:.6g}",
-        "*CONTACT PRINT",  # CalculiX wants energies from the first step on
-        "CELS",
-        "*END STEP",
+    press = [
         f"** the wheel load on the hub{whose}",
         "*STEP",
         "*STATIC",
         "*BOUNDARY, OP=NEW",
         *held,
         "*CLOAD",
-        f"HUB, 3, {-share * load:.12g}",
+        f"HUB, 3, {-share * loading.load:.12g}",
         "*NODE PRINT, NSET=HUB",
         "U",
         "*CONTACT PRINT",
@@ -98,6 +94,32 @@ def calculix_input(
         "*EL FILE",
         "S",
         "*END STEP",
+    ]
+    lines = [
+        *(f"** {line}".rstrip() for line in header),
+        f"** units: {UNITS}",
+        *_mesh(mesh),
+        "*MATERIAL, NAME=STEEL",
+        "*ELASTIC",
+        f"{1e-6 * youngs_modulus:.12g}, {poisson_ratio:.12g}",
+        "*SOLID SECTION, ELSET=RAIL, MATERIAL=STEEL",
+        "*SOLID SECTION, ELSET=WHEEL, MATERIAL=STEEL",
+        "*SURFACE INTERACTION, NAME=PENALTY",
+        "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR",
+        f"{1e-9 * loading.penalty:.12g}",  # 1 Pa/m = 1e-9 MPa/mm
+        "*CONTACT PAIR, INTERACTION=PENALTY, TYPE=SURFACE TO SURFACE",
+        "TREAD, RUNNING",
+        *_hub(mesh.bore),
+        "** the hub comes down by a given amount, to close the gap",
+        "*STEP",
+        "*STATIC",
+        "*BOUNDARY",
+        *held,
+        f"HUB, 3, 3, {-1e3 * loading.start:.6g}",
+        "*CONTACT PRINT",  # CalculiX wants energies from the first step on
+        "CELS",
+        "*END STEP",
+        *press * (1 + loading.repeats),
     ]
     return "\n".join(lines) + "\n"
 

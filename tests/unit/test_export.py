@@ -9,7 +9,7 @@ from scipy.sparse.linalg import splu
 
 from contactstudy import cli
 from contactstudy.exceptions import InputError, NumericalError
-from contactstudy.export.calculix import calculix_input
+from contactstudy.export.calculix import PressLoading, calculix_input
 from contactstudy.export.press_mesh import FACES, press_mesh
 from contactstudy.profiles import rail_curve
 from contactstudy.solids.hexahedron import hex_stiffness
@@ -21,7 +21,7 @@ from contactstudy.track.model import Track
 from contactstudy.track.solid import solid_rail
 from contactstudy.track.unreduced import UnreducedTrack
 from contactstudy.verification.cases import run_calculix as runner
-from contactstudy.verification.cases.calculix_results import read_press
+from contactstudy.verification.cases.calculix_results import read_press, read_presses
 
 CELL = CellRecipe(size=0.008, length=0.128, coarse=0.012, contact_half_width=0.018)
 # hardly a web: the brute force has every node of the ring
@@ -89,7 +89,7 @@ def test_bodies_touch_at_the_origin(mesh):
 
 
 def test_input_file_says_what_was_asked_for(mesh):
-    text = calculix_input(mesh, 80e3, 1e16, 210e9, 0.3, 90e-6, ["study x"])
+    text = calculix_input(mesh, PressLoading(80e3, 1e16, 90e-6), 210e9, 0.3, ["study x"])
     assert text.startswith("** study x\n** units: mm, N, MPa\n")
     nodes = re.search(r"\*NODE, NSET=ALL\n(.*?)\n\*ELEMENT", text, re.S)[1].splitlines()
     read = np.array([line.split(",") for line in nodes], dtype=float)
@@ -100,7 +100,9 @@ def test_input_file_says_what_was_asked_for(mesh):
     assert text.count("*EQUATION") == text.count(f", 3, 1., {hub}, 3, -1.") == len(mesh.bore) - 1
     assert "*ELASTIC\n210000, 0.3\n" in text
     assert "PRESSURE-OVERCLOSURE=LINEAR\n10000000\n" in text
-    assert "HUB, 3, 3, -0.09\n" in text and "HUB, 3, -40000\n" in text
+    assert "HUB, 3, 3, -0.09\n" in text and text.count("HUB, 3, -40000\n") == 1
+    again = calculix_input(mesh, PressLoading(80e3, 1e16, 90e-6, repeats=2), 210e9, 0.3)
+    assert again.count("HUB, 3, -40000\n") == 3 and again.count("*END STEP") == 4
 
 
 def test_impossible_models_are_refused(mesh):
@@ -113,7 +115,7 @@ def test_impossible_models_are_refused(mesh):
         "rail",
     ]
     with pytest.raises(InputError) as caught:
-        calculix_input(mesh, -1.0, 0.0, 210e9, 0.3, np.nan)
+        PressLoading(-1.0, 0.0, np.nan)
     assert len(caught.value.problems) == 3
 
 
@@ -170,6 +172,8 @@ def test_results_of_the_last_step_are_read(tmp_path):
     np.testing.assert_allclose(
         press.face_pressure(np.array([6, 7, 9]), np.full(3, 4e-6)), [1e9, 0.25e9, 0.0]
     )
+    path.write_text(RESULTS + RESULTS.replace("-1.250000E-01", "-1.260000E-01"))
+    assert [p.approach for p in read_presses(path, 1e16)] == pytest.approx([125e-6, 126e-6])
     path.write_text(RESULTS.partition(" statistics")[0])
     with pytest.raises(NumericalError, match="statistics"):
         read_press(path, 1e16)

@@ -11,7 +11,7 @@ from scipy.sparse.linalg import splu
 
 from contactstudy import cli
 from contactstudy.exceptions import InputError
-from contactstudy.export.calculix import calculix_input
+from contactstudy.export.calculix import PressLoading, calculix_input
 from contactstudy.export.press_mesh import FACES, press_mesh
 from contactstudy.geometry.facing import surface_gap
 from contactstudy.geometry.placement import Geometry
@@ -47,6 +47,7 @@ WHEEL = WheelRecipe(
     dimensions=RING,
 )
 LENGTH = 0.16
+LOADING = PressLoading(80e3, 1e16, 90e-6)
 
 
 @pytest.fixture(scope="module")
@@ -107,7 +108,7 @@ def test_written_nodes_lie_where_the_smooth_surfaces_are():
     The rail's faces are chords of arcs of 13 mm and more: they lie within it by h^2/8r at most.
     """
     fine, narrow = replace(CELL, size=0.002), replace(WHEEL, size=0.002)
-    text = calculix_input(press_mesh(fine, narrow, LENGTH, GEOMETRY), 80e3, 1e16, 210e9, 0.3, 1e-4)
+    text = calculix_input(press_mesh(fine, narrow, LENGTH, GEOMETRY), LOADING, 210e9, 0.3)
     nodes, elements = read(text)
     upper = np.unique(faces(text, "TREAD", elements))
     lower = faces(text, "RUNNING", elements)
@@ -130,7 +131,7 @@ def test_written_nodes_lie_where_the_smooth_surfaces_are():
 
 
 def test_text_is_sound(mesh):
-    text = calculix_input(mesh, 80e3, 1e16, 210e9, 0.3, 90e-6)
+    text = calculix_input(mesh, LOADING, 210e9, 0.3)
     nodes, elements = read(text)
     np.testing.assert_allclose(nodes, mesh.nodes, atol=1e-12)
     assert len(np.unique(elements)) == len(nodes)

@@ -9,25 +9,47 @@ from contactstudy.verification.check import CaseResult, Check
 CORNER = """
 
 As drawn the wheel touches at the gauge corner alone. The inclined force pushes rail and rim apart
-until the tread carries as well, in both programs. On faces of 4 mm the two patches are one or two
-faces wide; approach, area and single pressures are reported, and how much of the pressure stands
-below s = -26 mm, on the gauge corner. Judged is the lateral force. CalculiX follows the faces as
-they move sideways, which the linear program does not.
+until the tread carries as well, in both programs; wheel and rail then stand 0.45 mm further apart
+sideways. CalculiX pairs the faces once a step. With the pairs of an earlier place its answer
+depends on where that was: a first step of 110 um, then the load, gives a share of the gauge corner
+of 0.49, and 0.39 once steps at the same load no longer move it, from whatever first step. So the
+load step is repeated here, and the last step is held against the one before it.
+
+On faces of 4 mm the two patches are one or two faces wide. Judged are the approach and how much of
+the pressure stands below s = -26 mm, on the gauge corner. Area, single pressures and the lateral
+force are reported: the program sums forces along the normals of the places that the undeformed
+bodies have, and its lateral force comes out 8 to 12 % low, depending on where the mesh lies.
 """
 GAUGE_CORNER = -0.026
 """Arc length on the wheel's profile in m that divides the patches."""
+START = 265e-6
+"""m that the hub comes down in the first step, nearly the approach: fewer steps settle it."""
 
 
 def press_on_gauge_corner() -> CaseResult:
-    """A shift with two patches."""
-    found = whole_press("wheelset.lateral_shift=5.5 mm")
-    flat, smooth, theirs = found.flat, found.smooth, found.theirs
-    ours, reference = (corner_share(found.wheel, press) for press in (flat, theirs))
+    """A shift with two patches; some minutes of CalculiX."""
+    found = whole_press("wheelset.lateral_shift=5.5 mm", start=START, repeats=2)
+    flat, smooth, theirs, before = found.flat, found.smooth, found.theirs, found.steps[-2]
+
+    def share(how: str, ours: FacetPress, other: FacetPress, band: float | None) -> Check:
+        shares = corner_share(found.wheel, ours), corner_share(found.wheel, other)
+        return Check(f"share of the gauge corner, {how}", *shares, "", found.source, band, scale=1)
+
     checks = (
         found.vertical(),
-        found.lateral("flat faces", flat, 0.03),
-        *press_checks("flat faces", flat, theirs, found.source, (None, None, None)),
-        Check("share of the gauge corner, flat faces", ours, reference, "", found.source, None),
+        share("CalculiX's last step against the one before", theirs, before, 0.002),
+        Check(
+            "lateral force, CalculiX's last step against the one before",
+            1e-3 * theirs.lateral_force,
+            1e-3 * before.lateral_force,
+            "kN",
+            found.source,
+            0.005,
+        ),
+        share("flat faces", flat, theirs, 0.02),
+        found.lateral("flat faces", flat),
+        *press_checks("flat faces", flat, theirs, found.source, (0.02, None, None)),
+        share("smooth profiles", smooth, theirs, None),
         found.lateral("smooth profiles", smooth),
         *press_checks("smooth profiles", smooth, theirs, found.source, (None, None, None)),
     )

@@ -12,8 +12,8 @@ from contactstudy.geometry.placement import Geometry
 from contactstudy.solids.wheel import WheelFlexibility
 from contactstudy.solvers.at_rest import geometry_press
 from contactstudy.track.meshed import MeshedTrack
+from contactstudy.verification.cases.calculix_results import CalculixPress
 from contactstudy.verification.cases.flat_press import FacetPress
-from contactstudy.verification.cases.run_calculix import CalculixRun
 from contactstudy.verification.check import Check, ResultTable
 
 
@@ -85,9 +85,9 @@ def pressures_apart(ours: FacetPress, theirs: FacetPress, source: str) -> Check:
     )
 
 
-def read_as_facets(mesh: PressMesh, run: CalculixRun) -> FacetPress:
+def read_as_facets(mesh: PressMesh, press: CalculixPress) -> FacetPress:
     """CalculiX's press as one of ours, its mean pressures on the grid of the tread's faces."""
-    corners, press = mesh.corners(mesh.tread), run.press
+    corners = mesh.corners(mesh.tread)
     # area of a plane quadrilateral from its diagonals, of both halves of a half model
     diagonals = corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]
     area = np.linalg.norm(np.cross(*diagonals), axis=1) * (1.0 if mesh.symmetric else 0.5)

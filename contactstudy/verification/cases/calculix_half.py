@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from contactstudy.export.calculix import calculix_input
+from contactstudy.export.calculix import PressLoading, calculix_input
 from contactstudy.export.press_mesh import PressMesh, press_mesh
 from contactstudy.halfspace.hertz import HertzContact, contact_modulus, hertz_contact
 from contactstudy.profiles.rail import rail_profile
@@ -75,7 +75,8 @@ class _Model:
     def calculix(self, mesh: PressMesh) -> CalculixRun:
         """Let CalculiX solve it."""
         E, nu = self.cell.youngs_modulus, self.cell.poisson_ratio
-        text = calculix_input(mesh, LOAD, PENALTY, E, nu, self.hertz.approach)
+        loading = PressLoading(LOAD, PENALTY, self.hertz.approach)
+        text = calculix_input(mesh, loading, E, nu)
         return run_calculix(text, PENALTY)
 
     @property
@@ -104,7 +105,7 @@ def _case(name: str, model: _Model, smooth_band: float | None) -> CaseResult:
     wheel = cached(wheel_body(model.wheel))
     run, middle = model.calculix(mesh), 0.5 * model.length
     flat = flat_press(track, wheel, LOAD, PENALTY, middle)
-    theirs = read_as_facets(mesh, run)
+    theirs = read_as_facets(mesh, run.press)
     smooth = smooth_press(track, wheel, LOAD, PENALTY, middle)
     source, outwards = f"CalculiX {run.version}", slice(len(wheel.x) // 2, None)
     checks = (

@@ -1,5 +1,6 @@
 """Results of CalculiX for an exported press, read from its .dat file."""
 
+import re
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -57,7 +58,12 @@ class CalculixPress:
 
 
 def read_press(path: Path, penalty: float, symmetric: bool = True) -> CalculixPress:
-    """Read the last step of a .dat file.
+    """Press of the last step of a .dat file, see `read_presses`."""
+    return read_presses(path, penalty, symmetric)[-1]
+
+
+def read_presses(path: Path, penalty: float, symmetric: bool = True) -> tuple[CalculixPress, ...]:
+    """Read the load steps of a .dat file.
 
     Parameters
     ----------
@@ -73,18 +79,24 @@ def read_press(path: Path, penalty: float, symmetric: bool = True) -> CalculixPr
         If a result is lacking, because the solution was not finished.
     """
     try:
-        blocks = _blocks(path.read_text("ascii", errors="replace"))
-        hub = blocks["displacements"][0]
-        stress = np.array(blocks["contact stress"])
-        energy = np.array(blocks["contact print energy"])
-        # rows of the statistics: force and moment; centre and normal; moment; area, forces
-        statistics = blocks["statistics"]
-        lateral, force, area = *statistics[0][1:3], statistics[-1][0]
+        # the hub's displacements come first in each load step
+        steps = re.split(r"\n(?= *displacements)", path.read_text("ascii", errors="replace"))
+        blocks = [_blocks(step) for step in steps[1:] or steps]
+        return tuple(_press(found, penalty, symmetric) for found in blocks)
     except (OSError, KeyError, IndexError) as error:
         raise NumericalError(
             f"CalculiX: {path.name} does not hold the results of a finished press "
             f"(missing: {error})"
         ) from error
+
+
+def _press(blocks: dict[str, list[list[float]]], penalty: float, symmetric: bool) -> CalculixPress:
+    hub = blocks["displacements"][0]
+    stress = np.array(blocks["contact stress"])
+    energy = np.array(blocks["contact print energy"])
+    # rows of the statistics: force and moment; centre and normal; moment; area, forces
+    statistics = blocks["statistics"]
+    lateral, force, area = *statistics[0][1:3], statistics[-1][0]
     pressure, halves = 1e6 * stress[:, 2], 2.0 if symmetric else 1.0
     # energy of a point: 1/2 p A (p/penalty); N mm to J
     point_area = 2.0 * 1e-3 * energy[:, 2] * penalty / pressure**2
@@ -100,7 +112,7 @@ def read_press(path: Path, penalty: float, symmetric: bool = True) -> CalculixPr
 
 
 def _blocks(text: str) -> dict[str, list[list[float]]]:
-    """Rows of numbers under each heading; of the last step, whose blocks replace the others."""
+    """Rows of numbers under each heading."""
     blocks: dict[str, list[list[float]]] = {}
     current: list[list[float]] = []
     for line in text.splitlines():

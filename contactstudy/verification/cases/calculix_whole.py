@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from contactstudy.export.calculix import calculix_input
+from contactstudy.export.calculix import PressLoading, calculix_input
 from contactstudy.export.press_mesh import press_mesh
 from contactstudy.solids.bodies import wheel_body
 from contactstudy.solids.cache import cached
@@ -50,7 +50,7 @@ profiles" are what they are in the case calculix_coarse, with the rail's nodes a
 wheel condensed; smooth profiles are reported and not judged.
 
 The program is linear: normals and places of the undeformed bodies. CalculiX pairs the faces where \
-the first step has moved them: the wheel's rim gives way sideways."""
+the step before has moved them: the wheel's rim gives way sideways."""
 
 
 @dataclass(frozen=True)
@@ -59,8 +59,10 @@ class WholePress:
 
     Attributes
     ----------
-    theirs, flat, smooth : FacetPress
-        Of CalculiX, of the program between flat faces, and between smooth profiles.
+    steps : tuple of FacetPress
+        Of CalculiX's load steps.
+    flat, smooth : FacetPress
+        Of the program between flat faces, and between smooth profiles.
     wheel : WheelFlexibility
     load, force : float
         Of the wheel, and what CalculiX has between the surfaces, vertical, in N.
@@ -69,7 +71,7 @@ class WholePress:
     source : str
     """
 
-    theirs: FacetPress
+    steps: tuple[FacetPress, ...]
     flat: FacetPress
     smooth: FacetPress
     wheel: WheelFlexibility
@@ -77,6 +79,11 @@ class WholePress:
     force: float
     nodes: int
     source: str
+
+    @property
+    def theirs(self) -> FacetPress:
+        """CalculiX's last step."""
+        return self.steps[-1]
 
     def method(self, placed: str) -> str:
         """What is computed, for a wheel placed so."""
@@ -112,15 +119,15 @@ class WholePress:
         )
 
 
-def whole_press(*changes: str, start: float = START) -> WholePress:
+def whole_press(*changes: str, start: float = START, repeats: int = 0) -> WholePress:
     """Press the study's wheel in both programs.
 
     Parameters
     ----------
     changes : str
         Keys of the study, ``key=value``.
-    start : float
-        As of `calculix_input`.
+    start, repeats
+        As of `PressLoading`.
     """
     study = load_study(STUDY, (*CHANGES, *changes))
     cell, placed = build.recipe(study), geometry(study)
@@ -129,12 +136,13 @@ def whole_press(*changes: str, start: float = START) -> WholePress:
     penalty, load = study.solid.penalty, study.vehicle.static_load
     mesh = press_mesh(cell, recipe, LENGTH, placed)
     material = cell.youngs_modulus, cell.poisson_ratio
-    run = run_calculix(calculix_input(mesh, load, penalty, *material, start), penalty, False)
+    loading = PressLoading(load, penalty, start, repeats)
+    run = run_calculix(calculix_input(mesh, loading, *material), penalty, False)
     track = UnreducedTrack(Track(rail=solid_rail(cell), length=LENGTH, support=None), cell)
     wheel = cached(wheel_body(recipe))
     at = wheel, load, penalty, 0.5 * LENGTH
     return WholePress(
-        theirs=read_as_facets(mesh, run),
+        steps=tuple(read_as_facets(mesh, press) for press in run.presses),
         flat=flat_press(track, *at, geometry=placed),
         smooth=smooth_press(track, *at, geometry=placed),
         wheel=wheel,

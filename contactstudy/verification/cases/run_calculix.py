@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from contactstudy.exceptions import InputError, NumericalError
-from contactstudy.verification.cases.calculix_results import CalculixPress, read_press
+from contactstudy.verification.cases.calculix_results import CalculixPress, read_presses
 
 PROGRAM = "ccx"
 
@@ -20,7 +20,8 @@ class CalculixRun:
 
     Attributes
     ----------
-    press : CalculixPress
+    presses : tuple of CalculixPress
+        Of the load steps.
     version : str
         Of CalculiX.
     solutions : int
@@ -29,10 +30,15 @@ class CalculixRun:
         Processor time of the whole run, on one thread.
     """
 
-    press: CalculixPress
+    presses: tuple[CalculixPress, ...]
     version: str
     solutions: int
     cpu_seconds: float
+
+    @property
+    def press(self) -> CalculixPress:
+        """Of the last step."""
+        return self.presses[-1]
 
 
 def calculix_version() -> str:
@@ -97,7 +103,7 @@ def run_calculix(
             last = " ".join(done.stdout.split()[-20:])
             raise NumericalError(f"CalculiX: stopped with status {done.returncode}: ... {last}")
         return CalculixRun(
-            press=read_press(folder / "press.dat", penalty, symmetric),
+            presses=read_presses(folder / "press.dat", penalty, symmetric),
             version=version,
             solutions=done.stdout.count("Factoring the system"),
             cpu_seconds=(ended.children_user - began.children_user)

@@ -9,7 +9,7 @@ import numpy as np
 
 from contactstudy import __version__
 from contactstudy.exceptions import InputError
-from contactstudy.export.calculix import calculix_input
+from contactstudy.export.calculix import PressLoading, calculix_input
 from contactstudy.export.press_mesh import PressMesh, press_mesh
 from contactstudy.files import writing
 from contactstudy.geometry.placement import Geometry
@@ -25,6 +25,8 @@ from contactstudy.validation import complaint, did_you_mean, raise_if
 
 CELLS = 4
 """Rail cells that are exported by default: the fewest that a condensed track has."""
+REPEATS = 2
+"""Further steps of whole sections, see `PressLoading`."""
 
 
 @dataclass(frozen=True)
@@ -114,15 +116,10 @@ def export_press(
         f"E = {cell.youngs_modulus:.6g} Pa, nu = {cell.poisson_ratio:g}",
         *_axes(placed.pose, cell.symmetric),
     )
-    text = calculix_input(
-        mesh,
-        newtons,
-        study.solid.penalty,
-        cell.youngs_modulus,
-        cell.poisson_ratio,
-        start,
-        header,
+    loading = PressLoading(
+        newtons, study.solid.penalty, start, repeats=0 if mesh.symmetric else REPEATS
     )
+    text = calculix_input(mesh, loading, cell.youngs_modulus, cell.poisson_ratio, header)
     with writing(out) as temporary:
         temporary.write_text(text, "ascii", errors="replace")
     return Exported(newtons, length, mesh)
@@ -142,7 +139,8 @@ def _axes(pose: Pose, symmetric: bool) -> tuple[str, ...]:
         f"about X, field side up, by {pose.roll:.6g} rad, then about Z by {pose.yaw:.6g} rad; the "
         f"lowest point of its tape circle at Y = {pose.lateral:.6g} m",
         "the smooth profiles just touch; the hub moves along Z only",
-        "results of the second step: approach = -U3 of HUB; force on the wheel and area in CF",
+        "results of the last step: approach = -U3 of HUB; force on the wheel and area in CF; each "
+        "load step pairs the faces where the one before has moved them",
     )
 
 
