@@ -1,4 +1,4 @@
-"""Commands: run, check, reproduce, verify, export, studies.
+"""Commands: run, check, reproduce, verify, export, studies, cache.
 
 Exit status 0, 1 (broke down, or a check fails), 2 (input), 130 (interrupted).
 """
@@ -17,7 +17,6 @@ import cyclopts
 from cyclopts import App, Parameter
 from rich.console import Console
 
-from contactstudy import __version__
 from contactstudy.exceptions import ContactStudyError, InputError
 from contactstudy.process import ONE_THREAD
 
@@ -27,7 +26,8 @@ if TYPE_CHECKING:
 app = App(
     name="contactstudy",
     help="How wrong the simple wheel-rail contact model is: point against surface contact.",
-    version=__version__,
+    version=lambda: _version(),  # looking it up takes time
+    help_format="plaintext",  # Markdown takes as long to load as all the rest
 )
 
 Overrides = Annotated[
@@ -168,7 +168,7 @@ def export(
     study
         A TOML file, or the name of a shipped study.
     out
-        File to write; solve it with ``ccx NAME``, without the ending .inp.
+        File to write; solve it with ccx NAME, without the ending .inp.
     run
         Run of surface contact; the reference, or the first, when not given.
     load
@@ -198,6 +198,19 @@ def studies() -> None:
         print(f"{name:<{width}}  {title}")
 
 
+@app.command
+def cache(
+    *, clear: Annotated[bool, Parameter(negative="", help="Remove all of them.")] = False
+) -> None:
+    """Say where condensed bodies are kept, how many, and how large they are."""
+    from contactstudy.solids.cache import cache_store
+
+    store = cache_store()
+    if clear:
+        store.clear()
+    print(store.summary())
+
+
 def _run(study: Study, out: Path, jobs: int) -> None:
     from contactstudy.driver import run_study
     from contactstudy.study.terminal import TerminalReporter, print_results
@@ -222,6 +235,12 @@ def _each_its_own(studies: Sequence[Study], folders: Sequence[Path]) -> None:
         taken |= own
     if problems:
         raise InputError(problems)
+
+
+def _version() -> str:
+    from contactstudy import __version__
+
+    return __version__
 
 
 def _errors() -> Console:

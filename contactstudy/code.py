@@ -10,6 +10,8 @@ from pathlib import Path
 from contactstudy.resources import resource
 
 PACKAGE = "contactstudy"
+LOADING = "contactstudy.study.loading"
+"""What imports it may read a shipped study."""
 _ROOT = Path(__file__).resolve().parent
 # Import statements, inside functions as well. Reading them this way takes a twentieth of the
 # time of parsing all modules.
@@ -52,6 +54,8 @@ def code_digest(module: str | None = None) -> str:
     own = module is not None and module.split(".")[0] == PACKAGE
     if module is not None and own:
         files = {name: file for name in modules_of(module) if (file := _file(name))}
+        if LOADING in files:
+            files |= {f"studies/{path.name}": path for path in resource("studies").glob("*.toml")}
     else:
         files = {path.relative_to(_ROOT).as_posix(): path for path in _ROOT.rglob("*.py")}
         files |= {f"report/{p.name}": p for p in resource("report").glob("*.*")}

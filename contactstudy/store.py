@@ -152,6 +152,13 @@ class Store:
             return []
         return sorted(p for p in self.folder.iterdir() if _OWN.fullmatch(p.name) and p.is_file())
 
+    def summary(self) -> str:
+        """Where it is, how many entries it has, and how large they are."""
+        files = self.files()
+        entries = len({path.stem for path in files})
+        size = sum(path.stat().st_size for path in files)
+        return f"{self.folder}: {entries} entr{'y' if entries == 1 else 'ies'}, {size / 1e6:.1f} MB"
+
     def clear(self) -> None:
         """Remove all entries, and nothing else that lies in the folder."""
         for path in self.files():

@@ -1,4 +1,4 @@
-"""Compute the pieces of a plan that are not finished, in other processes."""
+"""Compute the pieces of a plan that are not finished, in other processes unless all are light."""
 
 from __future__ import annotations
 
@@ -54,7 +54,8 @@ def _run(plan: Plan, todo: list[tuple[Plan, Piece]], jobs: int, reporter: Report
         of = "" if one is plan else f"{one.study.name}: "
         name, work = of + piece.label, piece.work
         arguments = (one.kind.computing, piece.study, work.name, one.store, piece.entry, piece.key)
-        tasks[name] = Task(name, execute, arguments, tuple(task.name for task in before))
+        after = tuple(task.name for task in before)
+        tasks[name] = Task(name, execute, arguments, after, here=work.light)
         titles[name] = work.title or f"run {name}"
         if work.bar:
             bars[name] = of + work.bar

@@ -117,6 +117,8 @@ class Work:
         Progress bar that it shares with others, in pieces; its own, in steps, if empty.
     long : bool
         Whether it takes long: such ones start first, so that the short ones fill the gaps.
+    light : bool
+        Whether it takes less time than a process takes to start, and little memory.
     """
 
     name: str
@@ -124,6 +126,7 @@ class Work:
     title: str = ""
     bar: str = ""
     long: bool = False
+    light: bool = False
 
 
 @dataclass(frozen=True)

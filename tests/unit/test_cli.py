@@ -18,7 +18,7 @@ from contactstudy import cli, driver
 from contactstudy.figures.irregularity import irregularity_of
 from contactstudy.irregularity import paper_spectrum
 from contactstudy.solids.bodies import rail_body
-from contactstudy.solids.cache import entry_path
+from contactstudy.solids.cache import cache_store, entry_path
 from contactstudy.store import DATASET, Store
 from contactstudy.study import compute
 from contactstudy.study.kinds.passage import build
@@ -330,3 +330,16 @@ def test_reproduce_puts_named_studies_below_the_folder(short, tmp_path, monkeypa
     results = read_results(tmp_path / "reports/out/paper_irregularity")
     assert not results.runs and irregularity_of(results).estimate is not None
     assert "paper_irregularity" in capfd.readouterr().out
+
+
+def test_cache_says_what_is_there_and_clears_it(tmp_path, monkeypatch, capsys):
+    monkeypatch.setenv("CONTACTSTUDY_CACHE", str(tmp_path / "cache"))
+    assert cli.main(["cache"]) == 0
+    cache_store().save("CellRecipe", "0123456789abcdef", {"a": np.zeros(250_000)})
+    (tmp_path / "cache" / "mine.txt").write_text("no body")
+    assert cli.main(["cache"]) == 0
+    assert cli.main(["cache", "--clear"]) == 0
+    where = tmp_path / "cache"
+    lines = [f"{where}: 0 entries, 0.0 MB", f"{where}: 1 entry, 2.0 MB"]
+    assert capsys.readouterr().out.splitlines() == [*lines, lines[0]]
+    assert [p.name for p in where.iterdir()] == ["mine.txt"]

@@ -16,6 +16,10 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
+#: Steps of a beam that take about as long as a process takes to start.
+LIGHT = 20_000
+
+
 class PassageKind(Kind):
     """Wheels run over a track."""
 
@@ -52,10 +56,14 @@ class PassageKind(Kind):
 
     def work(self, study: Study, inputs: Inputs) -> Sequence[Work]:
         """A piece a run."""
+        from contactstudy.study.kinds.passage.build import journey
         from contactstudy.study.kinds.passage.inputs import run_inputs
 
+        def light(run: str) -> bool:
+            return not study.bodies(run) and journey(study, run).n_steps <= LIGHT
+
         return [
-            Work(name, run_inputs(study, inputs, name), long=run.needs_solid)
+            Work(name, run_inputs(study, inputs, name), long=run.needs_solid, light=light(name))
             for name, run in study.runs.items()
         ]
 
