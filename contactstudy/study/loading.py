@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -11,7 +11,7 @@ from typing import Any
 from contactstudy.exceptions import InputError
 from contactstudy.resources import resource
 from contactstudy.study.kind import kind_of_file
-from contactstudy.validation import did_you_mean
+from contactstudy.validation import complaint, did_you_mean
 
 # of a study's results, beside which those of its companions lie
 _FOLDERS = ("runs", "figures", "fields")
@@ -105,3 +105,14 @@ def load_companions(study: Any) -> list[Any]:
     if problems:
         raise InputError(problems)
     return found
+
+
+def title_and_description(name: str, data: Mapping[str, Any]) -> tuple[dict[str, str], list[str]]:
+    """Texts that a study file of any kind may have, and what is wrong with them."""
+    texts = {"title": data.get("title", name), "description": data.get("description", "")}
+    problems = [
+        complaint(key, value, "must be text")
+        for key, value in texts.items()
+        if not isinstance(value, str)
+    ]
+    return texts, problems

@@ -99,6 +99,20 @@ def test_a_part_of_another_type_is_refused():
         Track(support="discrete")
 
 
+def test_runs_are_checked():
+    with pytest.raises(InputError, match=r"runs\.irregularity: .*its own group"):
+        built(runs={"irregularity": PointRun()})
+    with pytest.raises(InputError, match=r"runs\.p: is a Journey; must be of type PointRun or Sur"):
+        built(runs={"p": Journey()})
+
+
+def test_texts_have_no_unit():
+    assert "positions.roll" not in load_study("manchester", ["positions.roll=rest"]).units()
+    assert load_study("manchester").units()["positions.roll"] == "rad"
+    units = load_study("point_vs_surface").units()
+    assert "runs.point.k_r" in units and "runs.point_tangent.k_r" not in units
+
+
 def test_every_variant_comes_back_from_its_own_values():
     tracks = (
         Track(support=DiscreteSupports(layer=Slab())),

@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
-from contactstudy.exceptions import InputError
 from contactstudy.study.kinds.passage.checks import combined
 from contactstudy.study.kinds.passage.runs import SOLVERS
-from contactstudy.study.kinds.passage.schema import IRREGULARITY, SECTIONS, Study, wrong_reference
+from contactstudy.study.kinds.passage.schema import SECTIONS, Study, wrong_reference, wrong_runs
+from contactstudy.study.loading import title_and_description
 from contactstudy.study.overrides import override
-from contactstudy.validation import complaint, did_you_mean, read, resolve_paths, unknown
+from contactstudy.validation import complaint, did_you_mean, raise_if, read, resolve_paths, unknown
 
 _TOP_LEVEL = ("title", "description", "companions", *SECTIONS, "runs", "compare")
-_RUN_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 _SHARED = ("track", "vehicle", "journey", "solid", "wheelset", "scan")
 
 
@@ -64,21 +62,16 @@ def parse_study(
     texts, wrong_texts = _texts(name, data)
     reference, wrong_compare = _reference(data, list(data["runs"]) if runs else [])
     found += wrong + combined(tables, runs) + wrong_texts + wrong_compare
-    if found:
-        raise InputError(found)
+    raise_if(found)
     return Study(name=name, **texts, **tables, runs=runs, reference=reference)
 
 
 def _runs(data: Any) -> tuple[dict[str, Any], list[str]]:
     if not isinstance(data, Mapping):
         return {}, [complaint("runs", data, "must hold one table a run, [runs.NAME]")]
-    runs, problems = {}, []
+    runs, problems = {}, wrong_runs(data)
     for name, table in data.items():
         path = f"runs.{name}"
-        if not _RUN_NAME.fullmatch(name):
-            problems.append(f"{path}: a run's name is letters, digits and _, a letter first")
-        elif name == IRREGULARITY:
-            problems.append(f"{path}: a run cannot be called '{name}', which names its own group")
         if not isinstance(table, Mapping) or "solver" not in table:
             hint = did_you_mean(name, [other for other in data if other != name])
             misspelt = f"; or is the run's name misspelt{hint}" if hint else ""
@@ -92,18 +85,13 @@ def _runs(data: Any) -> tuple[dict[str, Any], list[str]]:
 
 
 def _texts(name: str, data: Mapping[str, Any]) -> tuple[dict[str, Any], list[str]]:
-    title, description = data.get("title", name), data.get("description", "")
+    texts: dict[str, Any]
+    texts, problems = title_and_description(name, data)
     companions = data.get("companions", [])
-    problems = [
-        complaint(key, value, "must be text")
-        for key, value in (("title", title), ("description", description))
-        if not isinstance(value, str)
-    ]
     if not isinstance(companions, list) or not all(isinstance(c, str) for c in companions):
         problems.append(complaint("companions", companions, "must be a list of names of studies"))
         companions = []
-    texts = {"title": title, "description": description, "companions": tuple(companions)}
-    return texts, problems
+    return texts | {"companions": tuple(companions)}, problems
 
 
 def _reference(data: Mapping[str, Any], runs: list[str]) -> tuple[str | None, list[str]]:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+import re
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
@@ -36,6 +37,7 @@ SECTIONS: dict[str, Table] = {
     "scan": ScanFiles,
 }
 """Tables of a study file."""
+_RUN_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 IRREGULARITY = "irregularity"
 """Group of the results with what Fig. 1 shows; so no run may have this name."""
 
@@ -77,7 +79,11 @@ class Study:
 
     def __post_init__(self) -> None:
         """Refuse what is impossible in combination, as in a file; cells fit the supports."""
-        raise_if(wrong_types({key: getattr(self, key) for key in SECTIONS}))
+        raise_if(
+            wrong_types({key: (SECTIONS[key], getattr(self, key)) for key in SECTIONS})
+            + wrong_types({f"runs.{name}": (SOLVERS, run) for name, run in self.runs.items()})
+            + wrong_runs(self.runs)
+        )
         if not self.solid.given("cell_length"):
             object.__setattr__(self, "solid", self.solid.fitting(self.track))
         raise_if(combined(vars(self), self.runs) + wrong_reference(self.reference, self.runs))
@@ -153,14 +159,26 @@ class Study:
         return [key for key in SECTIONS if used.get(key, True)]
 
 
-def wrong_types(tables: dict[str, Any]) -> list[str]:
+def wrong_types(tables: dict[str, tuple[Table, Any]]) -> list[str]:
     """Complaints about tables that are not what the study is made of."""
     problems = []
-    for key, value in tables.items():
-        table = SECTIONS[key]
+    for key, (table, value) in tables.items():
         classes = tuple(table.classes.values()) if isinstance(table, Variants) else (table,)
         if not isinstance(value, classes):
             problems.append(wrong_type(key, value, classes))
+    return problems
+
+
+def wrong_runs(names: Iterable[str]) -> list[str]:
+    """Complaints about names that no run can have."""
+    problems = []
+    for name in names:
+        if not _RUN_NAME.fullmatch(name):
+            problems.append(f"runs.{name}: a run's name is letters, digits and _, a letter first")
+        elif name == IRREGULARITY:
+            problems.append(
+                f"runs.{name}: a run cannot be called '{name}', which names its own group"
+            )
     return problems
 
 

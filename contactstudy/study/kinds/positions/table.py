@@ -17,6 +17,7 @@ from contactstudy.profiles.curve import ProfileCurve
 from contactstudy.profiles.named import rail_curve, wheel_curve
 from contactstudy.profiles.wheel_file import file_digest
 from contactstudy.study.kinds.passage.wheelset import PATHS, WheelsetPosition, off_track
+from contactstudy.study.loading import title_and_description
 from contactstudy.study.overrides import override
 from contactstudy.track.rail import Rail
 from contactstudy.units import UnitError, to_si
@@ -28,7 +29,7 @@ from contactstudy.validation import (
     Same,
     Unit,
     Written,
-    complaint,
+    raise_if,
     read,
     resolve_paths,
     units,
@@ -212,13 +213,7 @@ def load_positions(
     resolve_paths(Positions, data["positions"], path.parent)
     found = override(data, overrides, {"positions": Positions})
     found += [unknown("", key, _TOP_LEVEL) for key in data if key not in _TOP_LEVEL]
-    title, description = data.get("title", path.stem), data.get("description", "")
-    found += [
-        complaint(key, value, "must be text")
-        for key, value in (("title", title), ("description", description))
-        if not isinstance(value, str)
-    ]
+    texts, wrong_texts = title_and_description(path.stem, data)
     table, wrong = read(Positions, data["positions"], "positions")
-    if problems := found + wrong:
-        raise InputError(problems)
-    return PositionsStudy(path.stem, title, description, table)
+    raise_if(found + wrong_texts + wrong)
+    return PositionsStudy(path.stem, texts["title"], texts["description"], table)
