@@ -71,7 +71,7 @@ class MovingForce:
 ContactLaw = LinearSpring | RigidContact | HertzSpring | MovingForce
 
 
-def contact_forces(
+def point_forces(
     law: ContactLaw,
     compliance: Array,
     free_gap: Array,

@@ -24,7 +24,7 @@ _FRAMES_A_SECOND = (4.0, 20.0)
 
 
 @dataclass(frozen=True)
-class Frames:
+class PatchFrames:
     """Pressure on the whole patch at many instants.
 
     Attributes
@@ -59,15 +59,15 @@ def write_animations(results: StudyResults, out_dir: Path) -> list[Path]:
     return written
 
 
-def frames_of(run: xr.Dataset) -> Frames:
-    """Frames of a run, both halves of a symmetric model."""
+def frames_of(run: xr.Dataset) -> PatchFrames:
+    """PatchFrames of a run, both halves of a symmetric model."""
     x, y = (np.unique(np.asarray(run[name].values)) for name in ("point_x", "point_y"))
     pressure = np.asarray(run["frame_pressure"].transpose("frame", "point").values)
     grid = pressure.reshape(-1, len(x), len(y)) * 1e-6
     if run["point_y"].attrs.get("symmetric", y[0] >= -1e-9):
         y, grid = np.r_[-y[:0:-1], y], np.concatenate([grid[:, :, :0:-1], grid], axis=2)
     at = np.asarray(run["frame_position"].values, dtype=float)
-    return Frames(x * 1e3, y * 1e3, grid, at)
+    return PatchFrames(x * 1e3, y * 1e3, grid, at)
 
 
 def _animate(name: str, run: xr.Dataset, path: Path) -> None:
@@ -81,7 +81,7 @@ def _animate(name: str, run: xr.Dataset, path: Path) -> None:
             writer.grab_frame()
 
 
-def _draw(name: str, run: xr.Dataset, frames: Frames) -> tuple[Figure, Mapping[str, Any]]:
+def _draw(name: str, run: xr.Dataset, frames: PatchFrames) -> tuple[Figure, Mapping[str, Any]]:
     """Everything that stays, and the parts that move."""
     figure = new_figure(_HEIGHT, _WIDTH)
     patch, trace = figure.subplots(2, 1, height_ratios=[2.2, 1.0])
@@ -109,7 +109,7 @@ def _draw(name: str, run: xr.Dataset, frames: Frames) -> tuple[Figure, Mapping[s
     return figure, parts | {"force": force}
 
 
-def _show(parts: Mapping[str, Any], frames: Frames, k: int) -> None:
+def _show(parts: Mapping[str, Any], frames: PatchFrames, k: int) -> None:
     pressure = frames.pressure[k].T
     # no colour where nothing touches
     parts["image"].set_array(np.ma.masked_where(pressure <= 0.0, pressure))

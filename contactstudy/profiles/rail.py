@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from contactstudy.arrays import Array
 from contactstudy.exceptions import InputError
 from contactstudy.profiles.curve import ProfileCurve
-from contactstudy.profiles.geometry import Arc, Line, Piece, resolve_path
+from contactstudy.profiles.outline import Arc, Line, Segment, resolve_path
 from contactstudy.resources import resource
 
 NAMES = ("60E1",)
@@ -42,7 +42,7 @@ class RailProfile:
 
     name: str
     height: float
-    pieces: tuple[Piece, ...]
+    pieces: tuple[Segment, ...]
     source: str = ""
     reference: tuple[tuple[str, float], ...] = ()
 
@@ -152,16 +152,16 @@ class RailProfile:
         left = right[::-1][1:-1] * np.array([-1.0, 1.0])
         return np.concatenate([right, left])
 
-    def _piece(self, part: str) -> Piece:
+    def _piece(self, part: str) -> Segment:
         return next(p for p in self.pieces if p.part == part)
 
 
-def _on_axis(line: Piece) -> float:
+def _on_axis(line: Segment) -> float:
     assert isinstance(line, Line)
     return line.z_of_y(0.0)
 
 
-def _running_surface(name: str, pieces: tuple[Piece, ...]) -> ProfileCurve:
+def _running_surface(name: str, pieces: tuple[Segment, ...]) -> ProfileCurve:
     """Both halves of the running surface; the pieces of the right one go further down."""
     last = next(k for k, piece in enumerate(pieces) if piece.part == "side face")
     right = [piece.curve for piece in pieces[: last + 1]]

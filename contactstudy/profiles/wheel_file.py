@@ -73,7 +73,7 @@ def wheel_sections() -> dict[str, Path]:
     return {path.stem: path for path in sorted(resource("meshes", "wheels").glob("*.toml"))}
 
 
-def file_digest(path: str) -> str:
+def named_file_digest(path: str) -> str:
     """SHA-256 of a file's content; "" if there is no such file (a shipped name)."""
     file = Path(path)
     return hashlib.sha256(file.read_bytes()).hexdigest() if file.is_file() else ""

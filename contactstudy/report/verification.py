@@ -42,11 +42,11 @@ def write_verification(
                     pdf, _ = save(draw(plot), out_dir / "figures", name)
                     (root / "figures").mkdir(exist_ok=True)
                     (root / "figures" / f"{name}.pdf").write_bytes(pdf.read_bytes())
-        path.write_bytes(typeset(root, ("sections.typ",), content(outcomes, about)))
+        path.write_bytes(typeset(root, ("sections.typ",), document(outcomes, about)))
     return out_dir / PDF_FILE
 
 
-def content(outcomes: Sequence[CaseOutcome], about: dict[str, Any]) -> dict[str, Any]:
+def document(outcomes: Sequence[CaseOutcome], about: dict[str, Any]) -> dict[str, Any]:
     """Everything that the template inserts."""
     versions = about["versions"]
     return {

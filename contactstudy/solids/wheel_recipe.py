@@ -8,7 +8,7 @@ import numpy as np
 from contactstudy.arrays import Array
 from contactstudy.profiles.named import wheel_curve
 from contactstudy.profiles.wheel_body import WheelDimensions
-from contactstudy.profiles.wheel_file import file_digest
+from contactstudy.profiles.wheel_file import named_file_digest
 from contactstudy.solids.mapped import Grading
 from contactstudy.solids.recipe import CellRecipe
 from contactstudy.solids.wheel_section import WheelSection, fine_arcs, wheel_section
@@ -98,7 +98,7 @@ class WheelRecipe(Parameters):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        object.__setattr__(self, "profile_digest", file_digest(self.profile))
+        object.__setattr__(self, "profile_digest", named_file_digest(self.profile))
 
     @property
     def angles(self) -> Array:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactstudy.arrays import IntArray
-from contactstudy.contact.surface import SurfaceCoupling
+from contactstudy.contact.surface_coupling import SurfaceCoupling
 from contactstudy.dynamics.stepper import Coupling, State
 from contactstudy.solvers.journey import Journey
 from contactstudy.solvers.observers import Watch

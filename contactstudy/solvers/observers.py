@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 STEPS_PER_REPORT = 100
-"""How many steps pass between two reports of `Progress`."""
+"""How many steps pass between two reports of `ReportProgress`."""
 
 
 class Watch:
@@ -64,7 +64,7 @@ class EachState:
 
 
 @dataclass(frozen=True)
-class Progress:
+class ReportProgress:
     """Reports how far a run is, now and then.
 
     Parameters

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactstudy.arrays import Array
-from contactstudy.contact.surface import SurfaceCoupling
+from contactstudy.contact.surface_coupling import SurfaceCoupling
 from contactstudy.dynamics.stepper import Coupling
 from contactstudy.exceptions import InputError
 from contactstudy.geometry.points import ContactPoints

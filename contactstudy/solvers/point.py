@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactstudy.contact.laws import ContactLaw, HertzSpring, LinearSpring, RigidContact
-from contactstudy.contact.point import PointCoupling, PointGaps
+from contactstudy.contact.point_coupling import PointCoupling, PointGaps
 from contactstudy.dynamics.stepper import Integrator, average_acceleration, generalised_alpha
 from contactstudy.irregularity import Profile
 from contactstudy.solvers.journey import Journey
 from contactstudy.solvers.observers import Observer
 from contactstudy.solvers.passage import Passage
-from contactstudy.solvers.run import run
+from contactstudy.solvers.run import run_through
 from contactstudy.track.beam import BeamTrack
 from contactstudy.track.discrete import DiscreteTrack, not_discrete
 from contactstudy.track.model import Direction, Track
@@ -54,7 +54,7 @@ def point_contact(
     journey : Journey
     law : LinearSpring, RigidContact, HertzSpring or MovingForce
     observers : sequence of Observer
-        Watch the run, such as `solvers.observers.Progress`.
+        Watch the run, such as `solvers.observers.ReportProgress`.
     integrator : Integrator, optional
         Average acceleration when not given; for a rigid contact generalised-alpha with spectral
         radius `RIGID_SPECTRAL_RADIUS`. A rigid contact is a constraint on displacements (an
@@ -90,7 +90,7 @@ def point_contact(
     coupling = point_coupling(passage, law)
     setup = time.perf_counter() - began
     told = {"solver": "point", **_describe_rail(discrete), **_describe_law(law)}
-    data = run(passage, coupling, integrator, observers, told)
+    data = run_through(passage, coupling, integrator, observers, told)
     data.attrs["seconds_setup"] += setup
     return data
 

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
-def run(
+def run_through(
     passage: Passage[DiscreteTrack],
     coupling: Coupling,
     integrator: Integrator,

@@ -8,15 +8,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactstudy.contact.surface import Path, SurfaceCoupling
 from contactstudy.contact.surface_contact import SurfaceContact
+from contactstudy.contact.surface_coupling import Path, SurfaceCoupling
 from contactstudy.dynamics.stepper import Integrator, average_acceleration
 from contactstudy.irregularity import Profile
 from contactstudy.solvers.at_rest import geometry_press
 from contactstudy.solvers.journey import Journey
 from contactstudy.solvers.observers import Observer
 from contactstudy.solvers.passage import Passage
-from contactstudy.solvers.run import run
+from contactstudy.solvers.run import run_through
 from contactstudy.track.meshed import MeshedTrack, not_meshed
 from contactstudy.validation import raise_if
 from contactstudy.vehicle import Vehicle
@@ -54,7 +54,7 @@ def surface_contact(
     journey : Journey
         Where, how fast, which steps.
     observers : sequence of Observer
-        Watch the run, and may add to its dataset: `solvers.observers.Progress`,
+        Watch the run, and may add to its dataset: `solvers.observers.ReportProgress`,
         `solvers.instants.Instants`, `solvers.frames.Frames`.
     integrator : Integrator, optional
         Average acceleration when not given.
@@ -91,7 +91,7 @@ def surface_contact(
     pressed = geometry_press(track, contact, float(passage.static_loads[0]) * PRESS_LOADS)
     told = {"solver": "surface", "rail": "solid", "mesh_size": track.recipe.size}
     setup = time.perf_counter() - began
-    data = run(
+    data = run_through(
         passage,
         coupling,
         integrator or average_acceleration(),

@@ -62,12 +62,12 @@ def run_cases(
             todo.append(case)
         else:
             outcomes[case.name] = found
-            reporter.note(summary(found))
+            reporter.note(outcome_line(found))
 
     def finished(name: str, ended: Outcome) -> None:
         outcomes[name] = outcome = _of_task(name, ended)
         reporter.end(name, outcome.good)
-        reporter.note(summary(outcome))
+        reporter.note(outcome_line(outcome))
 
     tasks = [Task(case.name, _task, (case, out_dir), here=jobs == 1) for case in todo]
     run_tasks(tasks, jobs, reporter, finished)
@@ -115,7 +115,7 @@ def complaints(outcomes: Sequence[CaseOutcome]) -> list[str]:
     return lines
 
 
-def summary(outcome: CaseOutcome) -> str:
+def outcome_line(outcome: CaseOutcome) -> str:
     """One line on what became of a case."""
     if outcome.result is None:
         return f"{outcome.name}: {outcome.status}: {outcome.reason}"

@@ -8,7 +8,7 @@ from scipy.optimize import nnls
 
 from contactstudy.contact.augmented import Penalty
 from contactstudy.contact.moving_wheel import MovingWheel
-from contactstudy.contact.surface import Path, SurfaceCoupling
+from contactstudy.contact.surface_coupling import Path, SurfaceCoupling
 from contactstudy.dynamics.banded import Factor
 from contactstudy.exceptions import NumericalError
 from contactstudy.geometry.facets import tread_candidates

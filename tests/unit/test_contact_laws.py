@@ -10,7 +10,7 @@ from contactstudy.contact.laws import (
     LinearSpring,
     MovingForce,
     RigidContact,
-    contact_forces,
+    point_forces,
 )
 from contactstudy.exceptions import InputError
 
@@ -26,7 +26,7 @@ def compliance(n, seed=0):
 @given(gaps, st.integers(0, 5))
 def test_hertz_force_satisfies_the_law(gap, seed):
     gap, W = np.array(gap), compliance(len(gap), seed)
-    force = contact_forces(HertzSpring(K_H), W, gap, np.zeros(len(gap)))
+    force = point_forces(HertzSpring(K_H), W, gap, np.zeros(len(gap)))
     g = gap + W @ force
     np.testing.assert_allclose(force, K_H * np.maximum(-g, 0.0) ** 1.5, rtol=1e-6, atol=1e-4)
     assert np.all(force >= 0.0)
@@ -37,7 +37,7 @@ def test_linear_laws_solve_their_complementarity_problem(gap, seed, law):
     gap, W = np.array(gap), compliance(len(gap), seed)
     n = len(gap)
     loads = np.full(n, 6e4)
-    force = contact_forces(law, W, gap, loads)
+    force = point_forces(law, W, gap, loads)
     A, b = W, -gap
     if isinstance(law, LinearSpring):
         A, b = W + np.eye(n) / K_R, loads / K_R - gap
@@ -57,24 +57,22 @@ def test_one_and_several_wheels_agree():
     gap = np.array([-1e-4, -2e-4])
     W = np.diag([1e-9, 2e-9])
     for law in (HertzSpring(K_H), LinearSpring(K_R), RigidContact()):
-        both = contact_forces(law, W, gap, np.full(2, 6e4))
+        both = point_forces(law, W, gap, np.full(2, 6e4))
         for i in range(2):
-            one = contact_forces(law, W[i : i + 1, i : i + 1], gap[i : i + 1], np.array([6e4]))
+            one = point_forces(law, W[i : i + 1, i : i + 1], gap[i : i + 1], np.array([6e4]))
             assert both[i] == pytest.approx(one[0], rel=1e-12)
 
 
 def test_lateral_contact_holds_in_tension():
-    force = contact_forces(
-        LinearSpring(K_R), np.array([[1e-9]]), np.array([1e-4]), np.zeros(1), True
-    )
+    force = point_forces(LinearSpring(K_R), np.array([[1e-9]]), np.array([1e-4]), np.zeros(1), True)
     assert force[0] == pytest.approx(-1e-4 / 2e-9)
-    assert contact_forces(LinearSpring(K_R), np.array([[1e-9]]), np.array([1e-4]), np.zeros(1)) == 0
+    assert point_forces(LinearSpring(K_R), np.array([[1e-9]]), np.array([1e-4]), np.zeros(1)) == 0
 
 
 def test_moving_force_is_the_static_load():
     loads = np.array([1.0, 2.0])
     np.testing.assert_array_equal(
-        contact_forces(MovingForce(), compliance(2), np.array([-1.0, 1.0]), loads), loads
+        point_forces(MovingForce(), compliance(2), np.array([-1.0, 1.0]), loads), loads
     )
 
 

@@ -8,7 +8,7 @@ from contactstudy.dynamics.stepper import average_acceleration, generalised_alph
 from contactstudy.exceptions import InputError, NumericalError
 from contactstudy.irregularity import HarmonicProfile, SmoothRail
 from contactstudy.solvers.journey import Journey
-from contactstudy.solvers.observers import Progress
+from contactstudy.solvers.observers import ReportProgress
 from contactstudy.solvers.point import point_contact
 from contactstudy.track.beam import BeamTrack
 from contactstudy.track.model import Rail, Track
@@ -44,7 +44,7 @@ def test_dataset_of_one_wheel():
         ROUGH,
         journey,
         law=LinearSpring(1e9),
-        observers=(Progress(lambda done, total: calls.append((done, total))),),
+        observers=(ReportProgress(lambda done, total: calls.append((done, total))),),
     )
     n = journey.n_steps + 1
     assert dict(run.sizes) == {"time": n, "station": 2}

@@ -7,7 +7,7 @@ import xarray as xr
 from contactstudy.verification.cases.refined_runs import refined
 from contactstudy.verification.cases.refinement import Refinement, common, differences
 from contactstudy.verification.cases.refinement_report import (
-    figure,
+    difference_plot,
     left_checks,
     peak_over_hertz,
     tables,
@@ -66,7 +66,7 @@ def test_report_of_a_series() -> None:
     first, orders = tables("size (m)", 1.0, found)
     assert len(first.rows) == 4 and len(orders.rows) == 2
     assert first.rows[-1][1:6] == (0.0,) * 5
-    assert "2" in figure("size (m)", 1.0, found).caption
+    assert "2" in difference_plot("size (m)", 1.0, found).caption
     checks = left_checks(found, "size", (1.0, 50.0, 100.0))
     assert [c.reference for c in checks] == [1.0, 50.0, 100.0]
     assert all(c.passed for c in checks)

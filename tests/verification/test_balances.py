@@ -13,7 +13,7 @@ from contactstudy.solvers.journey import Journey
 from contactstudy.solvers.observers import EachState
 from contactstudy.solvers.passage import Passage
 from contactstudy.solvers.point import point_contact, point_coupling
-from contactstudy.solvers.run import run
+from contactstudy.solvers.run import run_through
 from contactstudy.track.beam import BeamTrack
 from contactstudy.track.model import Track
 from contactstudy.vehicle import wheel_column
@@ -25,7 +25,7 @@ def states_of(law, theory, journey=JOURNEY, integrator=None):
     track, profile = BeamTrack(Track(length=18.0), theory, 4, True), paper_spectrum()
     passage = Passage(track, wheel_column(), sample_profile(profile, seed=3), journey)
     states = []
-    result = run(
+    result = run_through(
         passage,
         point_coupling(passage, law),
         integrator or average_acceleration(),
@@ -73,7 +73,7 @@ def test_supports_carry_the_static_load():
     passage = Passage(BeamTrack(track), wheel_column(), SmoothRail(), journey)
     coupling = point_coupling(passage, HertzSpring(9.25e10))
     states = []
-    run(passage, coupling, average_acceleration(), (EachState(states.append),))
+    run_through(passage, coupling, average_acceleration(), (EachState(states.append),))
     start = states[0]
     # residual of the static equations, on every dof
     residual = passage.system.stiffness @ start.u - start.load

@@ -17,7 +17,7 @@ from contactstudy.solvers.instants import Instants
 from contactstudy.solvers.journey import Journey
 from contactstudy.solvers.observers import EachState
 from contactstudy.solvers.passage import Passage
-from contactstudy.solvers.run import run
+from contactstudy.solvers.run import run_through
 from contactstudy.solvers.surface import surface_contact, surface_coupling
 from contactstudy.track.model import Track
 from contactstudy.track.solid import SolidTrack, solid_rail
@@ -50,7 +50,7 @@ def test_work_equals_kinetic_strain_and_dissipated_energy():
     passage = Passage(on, wheel_column(), rough(), journey)
     coupling = surface_coupling(passage, SurfaceContact(wheel()))
     states = []
-    run(passage, coupling, average_acceleration(), (EachState(states.append),))
+    run_through(passage, coupling, average_acceleration(), (EachState(states.append),))
     balance = energy_balance(passage.system, states)
     scale = sum(abs(e) for e in (balance.kinetic, balance.strain, balance.dissipated))
     print(f"{balance}, residual {balance.residual:.1e} J")

@@ -35,7 +35,7 @@ def tables(name: str, scale: float, series: Refinement) -> tuple[ResultTable, ..
     return tuple(found)
 
 
-def figure(name: str, scale: float, series: Refinement) -> Plot:
+def difference_plot(name: str, scale: float, series: Refinement) -> Plot:
     """Differences of the levels from the finest one."""
     against = series.against_finest
     curves = tuple(

@@ -7,7 +7,7 @@ import numpy as np
 from contactstudy.verification.cases import refined_runs
 from contactstudy.verification.cases.refinement import BAND, QUANTITIES
 from contactstudy.verification.cases.refinement_report import (
-    figure,
+    difference_plot,
     left_checks,
     peak_over_hertz,
     tables,
@@ -64,7 +64,7 @@ def mesh() -> CaseResult:
         method,
         checks,
         (*tables(name, 1e3, fine), pressures, *tables(inner_name, 1e3, inner)),
-        (figure(name, 1e3, fine), figure(inner_name, 1e3, inner)),
+        (difference_plot(name, 1e3, fine), difference_plot(inner_name, 1e3, inner)),
     )
 
 
@@ -118,8 +118,8 @@ def penalty() -> CaseResult:
         checks,
         (*tables(f"{name}, Gauss points", 1.0, gauss), *tables(f"{name}, nodes", 1.0, nodes)),
         (
-            figure(f"{name}, Gauss points", 1.0, gauss),
-            figure(f"{name}, nodes", 1.0, nodes),
+            difference_plot(f"{name}, Gauss points", 1.0, gauss),
+            difference_plot(f"{name}, nodes", 1.0, nodes),
         ),
     )
 
@@ -141,7 +141,7 @@ def interface_modes() -> CaseResult:
         method,
         left_checks(found, "number of interface modes, 14", (0.05, 0.2, 0.05)),
         tables(name, 1.0, found),
-        (figure(name, 1.0, found),),
+        (difference_plot(name, 1.0, found),),
     )
 
 
@@ -174,7 +174,7 @@ def time_step() -> CaseResult:
         method,
         checks,
         tables(name, 1e6, found),
-        (figure(name, 1e6, found),),
+        (difference_plot(name, 1e6, found),),
     )
 
 

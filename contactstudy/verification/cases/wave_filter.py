@@ -57,7 +57,7 @@ def load_weights(M: Array, normal: Array, solution: PressedForces) -> Array:
     Parameters
     ----------
     M : ndarray (n, n)
-        Flexibility of both bodies and the penalty, as in `contact.surface`, m/N.
+        Flexibility of both bodies and the penalty, as in `contact.surface_coupling`, m/N.
     normal : ndarray (n,)
         Component of the contact normal along the approach.
     solution : PressedForces

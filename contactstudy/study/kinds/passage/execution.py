@@ -70,7 +70,7 @@ def _surface(study: Study, run: str, table: SurfaceRun, progress: Progress | Non
 
 
 def _reports(progress: Progress | None) -> tuple[Observer, ...]:
-    return () if progress is None else (observers.Progress(progress),)
+    return () if progress is None else (observers.ReportProgress(progress),)
 
 
 def condense_body(body: Body[Any], progress: Progress | None = None) -> None:

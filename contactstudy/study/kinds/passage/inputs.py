@@ -6,9 +6,9 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from contactstudy.files import file_digest as digest_of
+from contactstudy.files import file_digest
 from contactstudy.irregularity.shown import to_dataset
-from contactstudy.profiles.wheel_file import file_digest
+from contactstudy.profiles.wheel_file import named_file_digest
 from contactstudy.study.kind import Inputs
 from contactstudy.study.kinds.passage.build import recipe
 from contactstudy.study.kinds.passage.placing import contact_zone, scan_meeting
@@ -35,13 +35,13 @@ def read_inputs(study: Study) -> Inputs:
     if "wheelset" in config:
         contact_zone(study)  # refused before anything is computed
     section = study.solid.wheel_section
-    if digest := file_digest(section):
+    if digest := named_file_digest(section):
         files[Path(section).name] = digest
         if "solid" in config:
             config["solid"]["wheel_section"] = Path(section).name
     for key in WHEELSET_PATHS:
         name = getattr(study.wheelset, key)
-        if "wheelset" in config and (digest := file_digest(name)):
+        if "wheelset" in config and (digest := named_file_digest(name)):
             files[Path(name).name] = digest
             config["wheelset"][key] = Path(name).name
     notes = described.warnings + _scans(study, config, files)
@@ -63,7 +63,7 @@ def _scans(study: Study, config: dict[str, Any], files: dict[str, str]) -> tuple
     found = scan_meeting(study)
     for key in SCAN_PATHS:
         if name := getattr(study.scan, key):
-            files[Path(name).name] = digest_of(Path(name))
+            files[Path(name).name] = file_digest(Path(name))
             config["scan"][key] = Path(name).name
     config["scan"] |= study.scan.fitted()
     notes = [f"scan {scan.summary()}" for scan in study.scan.surfaces() if scan is not None]

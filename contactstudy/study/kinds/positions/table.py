@@ -15,7 +15,7 @@ from contactstudy.geometry.wheelset import SIDES, Side, Wheelset, WheelsetDimens
 from contactstudy.halfspace.hertz import contact_modulus
 from contactstudy.profiles.curve import ProfileCurve
 from contactstudy.profiles.named import rail_curve, wheel_curve
-from contactstudy.profiles.wheel_file import file_digest
+from contactstudy.profiles.wheel_file import named_file_digest
 from contactstudy.study.kinds.passage.wheelset import PATHS, WheelsetPosition, off_track
 from contactstudy.study.loading import title_and_description
 from contactstudy.study.overrides import override
@@ -188,7 +188,7 @@ class PositionsStudy:
     def files(self) -> dict[str, str]:
         """Name of each profile's file -> SHA-256 of its content."""
         names = [getattr(self.table, key) for key in PATHS]
-        return {Path(n).name: found for n in names if (found := file_digest(n))}
+        return {Path(n).name: found for n in names if (found := named_file_digest(n))}
 
 
 def load_positions(

@@ -99,7 +99,7 @@ class Arc:
         return self.start, self.end
 
 
-Piece = Line | Arc
+Segment = Line | Arc
 
 
 @dataclass(frozen=True)
@@ -180,7 +180,7 @@ def _corner(a: _Carrier, b: _Carrier) -> Vector:
     return foot + line.direction * half * (1.0 if line is a else -1.0)
 
 
-def resolve_path(path: Sequence[Mapping[str, Any]]) -> tuple[Piece, ...]:
+def resolve_path(path: Sequence[Mapping[str, Any]]) -> tuple[Segment, ...]:
     """Arcs and lines of a half outline from its drawing.
 
     Parameters
@@ -194,7 +194,7 @@ def resolve_path(path: Sequence[Mapping[str, Any]]) -> tuple[Piece, ...]:
     tuple of Line or Arc
         Connected pieces [m], fillets included.
     """
-    pieces: list[Piece] = []
+    pieces: list[Segment] = []
     carriers: list[_Carrier] = []
     for element in path:
         carriers.append(_carrier(element, carriers[-1] if carriers else None))
@@ -220,7 +220,7 @@ def resolve_path(path: Sequence[Mapping[str, Any]]) -> tuple[Piece, ...]:
     return tuple(pieces)
 
 
-def _piece(carrier: _Carrier, start: Vector, end: Vector) -> Piece:
+def _piece(carrier: _Carrier, start: Vector, end: Vector) -> Segment:
     a, b, c = ((float(p[0]) * 1e-3, float(p[1]) * 1e-3) for p in (start, end, carrier.point))
     if carrier.radius == 0.0:
         return Line(carrier.part, a, b)

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from contactstudy.arrays import Array, IntArray
-from contactstudy.contact.laws import ContactLaw, contact_forces
+from contactstudy.contact.laws import ContactLaw, point_forces
 from contactstudy.dynamics.banded import Factor
 from contactstudy.dynamics.rows import dense_rows, row_products, row_values
 from contactstudy.dynamics.stepper import ContactStep
@@ -104,6 +104,6 @@ class AttachedPoint:
         compliance.flat[:: len(dofs) + 1] += local
         free_gap = row_values(dofs, weights, u_free) - gaps.irregularity[step]
         loads, bilateral = coupling.static_loads, coupling.bilateral
-        force = contact_forces(coupling.law, compliance, free_gap, loads, bilateral)
+        force = point_forces(coupling.law, compliance, free_gap, loads, bilateral)
         record = {"contact_force": force, "rail_residual": -local * force}
         return ContactStep(force @ rows, force @ moved, record)
