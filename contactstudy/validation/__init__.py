@@ -7,7 +7,7 @@ units that are printed (`resolved`, `units`), and the list of all keys (`entries
 """
 
 from contactstudy.validation.base import Naming, Parameters
-from contactstudy.validation.checks import not_negative, one_of, positive, raise_if
+from contactstudy.validation.checks import not_negative, positive, raise_if
 from contactstudy.validation.definition import Parameter, parameter, parameters
 from contactstudy.validation.messages import complaint, did_you_mean, unknown
 from contactstudy.validation.metadata import (
@@ -56,7 +56,6 @@ __all__ = [
     "did_you_mean",
     "entries",
     "not_negative",
-    "one_of",
     "parameter",
     "parameters",
     "positive",

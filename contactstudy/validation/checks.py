@@ -20,14 +20,6 @@ def not_negative(name: str, value: float, unit: str = "") -> list[str]:
     return [f"{name} = {value:g}{_unit(unit)}: must be a finite number of at least 0"]
 
 
-def one_of(name: str, value: object, allowed: Iterable[object]) -> list[str]:
-    """Return the complaint (or nothing) about a value that must be one of a few."""
-    choices = tuple(allowed)
-    if value in choices:
-        return []
-    return [f"{name} = {value!r}: must be one of {', '.join(map(repr, choices))}"]
-
-
 def raise_if(problems: Iterable[str]) -> None:
     """Raise one error that lists all problems, if there are any.
 
