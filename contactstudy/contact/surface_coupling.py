@@ -61,7 +61,7 @@ class PatchState:
 
 
 @dataclass(frozen=True, eq=False)
-class Path:
+class WheelPath:
     """Where the wheel is at every state.
 
     Attributes
@@ -85,7 +85,7 @@ class SurfaceCoupling:
     track : MeshedTrack
         Its dofs are the first ones of the system.
     wheel : MovingWheel
-    path : Path
+    path : WheelPath
     candidates : CandidateList
         Facets that can touch.
     enforcement : Enforcement
@@ -93,7 +93,7 @@ class SurfaceCoupling:
 
     track: MeshedTrack
     wheel: MovingWheel
-    path: Path
+    path: WheelPath
     candidates: CandidateList
     enforcement: Enforcement
 

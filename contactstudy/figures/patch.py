@@ -20,7 +20,7 @@ from contactstudy.study.results import StudyResults
 
 
 @dataclass(frozen=True)
-class Patch:
+class ShownPatch:
     """Pressure of one instant on the whole patch (both halves when the model has only one).
 
     Attributes
@@ -65,7 +65,7 @@ def drawings(results: StudyResults) -> list[Drawing]:
     return made
 
 
-def patch_of(run: xr.Dataset) -> Patch | None:
+def patch_of(run: xr.Dataset) -> ShownPatch | None:
     """Pressure at the instant with the largest force among those stored; None if never in touch."""
     at = np.asarray(run["instant_position"].values, dtype=float)
     force = np.interp(at, position(run), values(run, "contact_force"))
@@ -86,7 +86,7 @@ def patch_of(run: xr.Dataset) -> Patch | None:
             np.concatenate([y, -y[inner]]),
             np.concatenate([p, p[inner]]),
         )
-    return Patch(x, y, p, float(at[k]), float(force[k]), k)
+    return ShownPatch(x, y, p, float(at[k]), float(force[k]), k)
 
 
 def _of_instant(data: xr.DataArray, k: int) -> Array:
@@ -95,7 +95,7 @@ def _of_instant(data: xr.DataArray, k: int) -> Array:
     return np.asarray(data.values, dtype=float)
 
 
-def _map(patch: Patch, hertz: HertzPatch | None) -> Figure:
+def _map(patch: ShownPatch, hertz: HertzPatch | None) -> Figure:
     figure = new_figure(3.0)
     left, right = figure.subplots(1, 2, width_ratios=[1.35, 1.0])
     x, y, p = patch.x * 1e3, patch.y * 1e3, patch.pressure * 1e-6
@@ -167,7 +167,7 @@ def _middle(hertz: HertzPatch | None) -> str:
     return "node of highest pressure" if hertz is None else "centre"
 
 
-def _map_caption(name: str, patch: Patch, hertz: HertzPatch | None) -> str:
+def _map_caption(name: str, patch: ShownPatch, hertz: HertzPatch | None) -> str:
     peak = patch.pressure.max()
     text = (
         f"Contact pressure of the run {label(name)} at X = {exact(patch.position)} m, where the "

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch as Swatch
 
 from contactstudy.arrays import Array
-from contactstudy.figures.patch import Patch, patch_of
+from contactstudy.figures.patch import ShownPatch, patch_of
 from contactstudy.plot.drawing import Drawing
 from contactstudy.plot.style import BLACK, BLUE, SHADE, SKY, new_figure
 from contactstudy.plot.text import exact, label, number
@@ -105,7 +105,7 @@ def _frame(ax: Axes, status: Status) -> None:
     ax.set_xlabel("Along the rail (mm)")
 
 
-def _caption(name: str, run: xr.Dataset, patch: Patch, status: Status) -> str:
+def _caption(name: str, run: xr.Dataset, patch: ShownPatch, status: Status) -> str:
     area = np.asarray(run["point_area"].values)
     nodal = np.asarray(run["contact_status"].values)[patch.instant]
     deepest = max(-float(status.gap.min()), 0.0)

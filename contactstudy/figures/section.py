@@ -21,7 +21,7 @@ _NEAR = 20.0  # mm, half width of the enlarged part
 
 
 @dataclass(frozen=True)
-class Section:
+class ShownSection:
     """One body in the plane across the rail, in m, y lateral and z up.
 
     Attributes
@@ -39,7 +39,7 @@ class Section:
 def drawings(results: StudyResults) -> list[Drawing]:
     """One figure for the first run that carries the sections of both bodies, else none."""
     for name, run in results.runs.items():
-        rail, wheel = section_of(run, "rail"), section_of(run, "wheel")
+        rail, wheel = shown_section(run, "rail"), shown_section(run, "wheel")
         if rail is None or wheel is None:
             continue
         # The irregularity lies between the bodies; without it they are drawn in touch.
@@ -67,7 +67,7 @@ def irregularity_at_instant(run: xr.Dataset) -> float:
     return float(np.interp(at, position(run), values(run, "irregularity")))
 
 
-def contact_place(run: xr.Dataset, rail: Section) -> Array:
+def contact_place(run: xr.Dataset, rail: ShownSection) -> Array:
     """Centre of pressure at that instant on the rail's outline, (y, z) in m; the crown if none."""
     if not {"pressure", "point_y"} <= set(run.variables):
         return np.zeros(2)
@@ -82,7 +82,7 @@ def contact_place(run: xr.Dataset, rail: Section) -> Array:
     return np.array([centre, float(upper[:, 1].max())])
 
 
-def section_of(run: xr.Dataset, body: str) -> Section | None:
+def shown_section(run: xr.Dataset, body: str) -> ShownSection | None:
     """Section mesh of `body` ("rail" or "wheel"), mirrored to y < 0 when only half is modelled."""
     names = [f"section_{body}_{part}" for part in ("nodes", "quads", "displacement")]
     if not all(name in run for name in names):
@@ -93,10 +93,10 @@ def section_of(run: xr.Dataset, body: str) -> Section | None:
         flip = np.array([-1.0, 1.0])
         quads = np.concatenate([quads, quads[:, ::-1] + len(nodes)])
         nodes, moved = np.concatenate([nodes, nodes * flip]), np.concatenate([moved, moved * flip])
-    return Section(nodes, quads, moved)
+    return ShownSection(nodes, quads, moved)
 
 
-def magnification(rail: Section, wheel: Section) -> float:
+def magnification(rail: ShownSection, wheel: ShownSection) -> float:
     """Return a round factor (1, 2 or 5 times a power of ten) by which displacements are drawn.
 
     Both bodies' whole displacements are drawn with it, so that they stay together.
@@ -110,7 +110,7 @@ def magnification(rail: Section, wheel: Section) -> float:
     return float(max(s * decade for s in (1.0, 2.0, 5.0) if s * decade <= wanted * (1 + 1e-9)))
 
 
-def mean_sink(body: Section) -> float:
+def mean_sink(body: ShownSection) -> float:
     """Mean vertical displacement in m over the area of a section."""
     y, z = np.moveaxis(body.nodes[body.quads], 2, 0)
     # shoelace formula, each quad about its own corners
@@ -118,7 +118,7 @@ def mean_sink(body: Section) -> float:
     return float(np.average(body.displacement[:, 1][body.quads].mean(axis=1), weights=area))
 
 
-def _draw(rail: Section, wheel: Section, factor: float, at: Array) -> Figure:
+def _draw(rail: ShownSection, wheel: ShownSection, factor: float, at: Array) -> Figure:
     figure = new_figure(4.0, equal_axes=True)
     whole, near = figure.subplots(1, 2, width_ratios=[1.0, 2.0])
     sink = mean_sink(rail)
@@ -150,7 +150,7 @@ def _draw(rail: Section, wheel: Section, factor: float, at: Array) -> Figure:
 
 
 def _body(
-    axes: Axes, body: Section, factor: float, sink: float, limits: tuple[float, float]
+    axes: Axes, body: ShownSection, factor: float, sink: float, limits: tuple[float, float]
 ) -> PolyCollection:
     corners = (body.nodes + factor * body.displacement)[body.quads] * 1e3
     value = (body.displacement[:, 1][body.quads].mean(axis=1) - sink) * 1e6
@@ -162,7 +162,7 @@ def _body(
     return faces
 
 
-def _outline(axes: Axes, body: Section) -> None:
+def _outline(axes: Axes, body: ShownSection) -> None:
     """Undeformed edge: the element sides that occur once."""
     sides = np.concatenate([body.quads[:, [i, (i + 1) % 4]] for i in range(4)])
     # A half model's plane of symmetry is inside the whole body.
@@ -181,7 +181,7 @@ def _outline(axes: Axes, body: Section) -> None:
 
 
 def _caption(
-    name: str, run: xr.Dataset, rail: Section, wheel: Section, factor: float, level: float
+    name: str, run: xr.Dataset, rail: ShownSection, wheel: ShownSection, factor: float, level: float
 ) -> str:
     at = run["section_rail_displacement"].attrs.get("section_position")
     where = "" if at is None else f" at X = {exact(float(at))} m"

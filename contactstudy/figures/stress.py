@@ -11,7 +11,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 
 from contactstudy.arrays import Array
-from contactstudy.figures.patch import Patch, patch_of
+from contactstudy.figures.patch import ShownPatch, patch_of
 from contactstudy.halfspace.pressure_field import SurfacePressure
 from contactstudy.halfspace.subsurface import SHALLOWEST, half_space_stress
 from contactstudy.plot.drawing import Drawing
@@ -73,7 +73,7 @@ def drawings(results: StudyResults) -> list[Drawing]:
     return made
 
 
-def below_of(run: xr.Dataset, patch: Patch) -> Below:
+def below_of(run: xr.Dataset, patch: ShownPatch) -> Below:
     """Pressure and stress maxima of the instant that the patch is of."""
     k = patch.instant
     maxima = {
@@ -155,7 +155,7 @@ def _mark(ax: Axes, at: float, depth: float, top: float) -> None:
     )  # fmt: skip
 
 
-def _caption(name: str, patch: Patch, below: Below) -> str:
+def _caption(name: str, patch: ShownPatch, below: Below) -> str:
     peak = float(patch.pressure.max())
     mises, shear = below.maxima["von_mises"], below.maxima["maximum_shear"]
     return (

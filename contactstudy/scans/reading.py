@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from contactstudy.arrays import Array, IntArray
 from contactstudy.exceptions import InputError
+from contactstudy.profiles.worn import Body
 from contactstudy.scans.faults import faults
 
 if TYPE_CHECKING:
@@ -17,8 +18,6 @@ if TYPE_CHECKING:
 UNITS = {"mm": 1e-3, "m": 1.0, "cm": 1e-2, "um": 1e-6, "in": 25.4e-3}
 """Length units of a file, in m."""
 SUFFIXES = (".stl", ".ply", ".obj")
-
-Body = Literal["rail", "wheel"]
 
 #: What a rail head's or a wheel tread's size across (Y) and along (X) can be [m].
 _SIZES = {

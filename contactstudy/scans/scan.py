@@ -13,8 +13,9 @@ from contactstudy.profiles.curve import ProfileCurve
 from contactstudy.profiles.scan_fit import STEEPEST, ScanFit
 from contactstudy.profiles.scanned_rail import RAIL_DEPTH, fit_rail_head
 from contactstudy.profiles.scanned_wheel import WHEEL_DEPTH, fit_wheel_tread
+from contactstudy.profiles.worn import Body
 from contactstudy.scans.faults import triangles
-from contactstudy.scans.reading import Body, read_mesh
+from contactstudy.scans.reading import read_mesh
 
 if TYPE_CHECKING:
     import trimesh

@@ -18,7 +18,7 @@ Made = TypeVar("Made")
 
 
 @dataclass(frozen=True)
-class Body(Generic[Made]):
+class CachedBody(Generic[Made]):
     """A body to condense.
 
     Attributes
@@ -58,17 +58,17 @@ def cache_store(directory: Path | None = None) -> Store:
     return Store(directory or cache_directory(), ARRAYS)
 
 
-def is_cached(body: Body[Any]) -> bool:
+def is_cached(body: CachedBody[Any]) -> bool:
     """Whether a body is in the user's cache."""
     return cache_store().has(_name(body), body.key)
 
 
-def cached(body: Body[Made], store: Store | None = None) -> Made:
+def cached(body: CachedBody[Made], store: Store | None = None) -> Made:
     """A body, from the store if it is there and whole; condensed and kept otherwise.
 
     Parameters
     ----------
-    body : Body
+    body : CachedBody
     store : Store, optional
         By default `cache_store`.
 
@@ -95,12 +95,12 @@ def cached(body: Body[Made], store: Store | None = None) -> Made:
     return made
 
 
-def entry_path(body: Body[Any], store: Store | None = None) -> Path:
+def entry_path(body: CachedBody[Any], store: Store | None = None) -> Path:
     """File of a body in the store."""
     return (store or cache_store()).path(_name(body), body.key)
 
 
-def _name(body: Body[Any]) -> str:
+def _name(body: CachedBody[Any]) -> str:
     return type(body.recipe).__name__
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactstudy.contact.surface_contact import SurfaceContact
-from contactstudy.contact.surface_coupling import Path, SurfaceCoupling
+from contactstudy.contact.surface_coupling import SurfaceCoupling, WheelPath
 from contactstudy.dynamics.stepper import Integrator, average_acceleration
 from contactstudy.irregularity import Profile
 from contactstudy.solvers.at_rest import geometry_press
@@ -125,7 +125,7 @@ def surface_coupling(passage: Passage[MeshedTrack], contact: SurfaceContact) -> 
     return SurfaceCoupling(
         passage.track,
         contact.moving(int(passage.wheel_dofs[0]), passage.n_dofs),
-        Path(positions[:, 0], profile(positions + contact.points.x)),
+        WheelPath(positions[:, 0], profile(positions + contact.points.x)),
         contact.candidates,
         contact.enforcement,
     )

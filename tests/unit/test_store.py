@@ -15,7 +15,7 @@ import xarray as xr
 
 from contactstudy import code
 from contactstudy.files import remove_unfinished, writing
-from contactstudy.solids.cache import Body, cache_store, cached, entry_path
+from contactstudy.solids.cache import CachedBody, cache_store, cached, entry_path
 from contactstudy.store import ARRAYS, DATASET, Store, StoreWarning, store_key
 
 
@@ -37,7 +37,7 @@ def counting():
         calls.append(recipe)
         return Plate(recipe, np.arange(12.0).reshape(3, 4) * recipe.size)
 
-    return (lambda recipe: Body("plate", recipe, build, Plate)), calls
+    return (lambda recipe: CachedBody("plate", recipe, build, Plate)), calls
 
 
 def test_second_time_comes_from_disk(tmp_path):

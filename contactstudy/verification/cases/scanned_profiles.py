@@ -20,8 +20,8 @@ from contactstudy.halfspace.patches import press_wheel
 from contactstudy.plot.curves import Plot, curve
 from contactstudy.profiles.curve import ProfileCurve
 from contactstudy.profiles.named import rail_curve, wheel_curve
+from contactstudy.profiles.worn import Body
 from contactstudy.scans import Scan, meeting, read_scan
-from contactstudy.scans.reading import Body
 from contactstudy.verification.check import CaseResult, Check, ResultTable
 
 RADIUS = 0.46

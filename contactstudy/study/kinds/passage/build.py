@@ -14,7 +14,7 @@ from contactstudy.contact.surface_contact import SurfaceContact
 from contactstudy.halfspace.hertz import HertzContact, contact_modulus, hertz_contact
 from contactstudy.profiles.wheel_file import wheel_dimensions
 from contactstudy.solids.bodies import modes_body, rail_body, wheel_body
-from contactstudy.solids.cache import Body, cached
+from contactstudy.solids.cache import CachedBody, cached
 from contactstudy.solids.recipe import CellRecipe
 from contactstudy.solids.wheel import WheelFlexibility, WheelRecipe, rigid_wheel
 from contactstudy.solids.wheel_modes import ModesRecipe, WheelModes
@@ -129,9 +129,9 @@ def modes(study: Study, run: str) -> WheelModes | None:
     return cached(modes_body(modes_recipe(study)))
 
 
-def bodies(study: Study, run: str) -> tuple[Body[Any], ...]:
+def bodies(study: Study, run: str) -> tuple[CachedBody[Any], ...]:
     """The condensed bodies that a run needs."""
-    makers: dict[str, Callable[[], Body[Any]]] = {
+    makers: dict[str, Callable[[], CachedBody[Any]]] = {
         "rail": lambda: rail_body(recipe(study)),
         "wheel": lambda: wheel_body(wheel_recipe(study)),
         "wheel modes": lambda: modes_body(modes_recipe(study)),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from contactstudy.executor import Progress
-from contactstudy.solids.cache import Body, cached
+from contactstudy.solids.cache import CachedBody, cached
 from contactstudy.solvers import observers
 from contactstudy.solvers.observers import Observer
 from contactstudy.study.kinds.passage import build
@@ -73,6 +73,6 @@ def _reports(progress: Progress | None) -> tuple[Observer, ...]:
     return () if progress is None else (observers.ReportProgress(progress),)
 
 
-def condense_body(body: Body[Any], progress: Progress | None = None) -> None:
+def condense_body(body: CachedBody[Any], progress: Progress | None = None) -> None:
     """Condense a body into the cache."""
     cached(body)
