@@ -78,17 +78,18 @@ class ResidualFlexibility:
 
         With ``stretch.local`` the mean holds a share of the dofs' as well.
         """
-        if self._period is None:
+        period = self._period
+        if period is None:
             exact = self._at(stretch, stretch.residual, X)
             return Blend(0.0, exact, exact)
         scaled = X / self._step
         plane = int(np.floor(scaled))
-        return Blend(scaled - plane, self._mean(plane, stretch), self._mean(plane + 1, stretch))
+        here, next_ = (self._mean(at, stretch, period) for at in (plane, plane + 1))
+        return Blend(scaled - plane, here, next_)
 
-    def _mean(self, plane: int, stretch: RailStretch) -> Array:
-        assert self._period is not None
+    def _mean(self, plane: int, stretch: RailStretch, period: int) -> Array:
         # both sides of a change of patches have means of their own, each with its own dofs
-        key = plane - stretch.key * self._period
+        key = plane - stretch.key * period
         if key not in self._kept:
             F = stretch.residual
             if stretch.local is not None:
