@@ -237,6 +237,8 @@ def test_results_do_not_depend_on_what_ran_before(tasks_module):
         assert outcome.error is None, outcome.error
         fresh[name] = outcome.value
     assert len(fresh["point"]) == 64 and fresh["point"] != fresh["surface"]
+    (here,) = run_tasks([Task("here", tasks_module.run, ("point",), here=True)]).values()
+    assert here.value == fresh["point"]
     order = ("surface", "point", "surface", "point")
     tasks = [Task(f"{name} {k}", tasks_module.run, (name,)) for k, name in enumerate(order)]
     outcomes = run_tasks(tasks, jobs=1)

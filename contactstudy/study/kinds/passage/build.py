@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
@@ -129,14 +128,16 @@ def modes(study: Study, run: str) -> WheelModes | None:
     return cached(modes_body(modes_recipe(study)))
 
 
-def bodies(study: Study, run: str) -> tuple[CachedBody[Any], ...]:
+def bodies(study: Study, run: str) -> list[CachedBody[Any]]:
     """The condensed bodies that a run needs."""
-    makers: dict[str, Callable[[], CachedBody[Any]]] = {
-        "rail": lambda: rail_body(recipe(study)),
-        "wheel": lambda: wheel_body(wheel_recipe(study)),
-        "wheel modes": lambda: modes_body(modes_recipe(study)),
-    }
-    return tuple(makers[name]() for name in study.bodies(run))
+    needed = list[CachedBody[Any]]()
+    if study.meshes_rail(run):
+        needed.append(rail_body(recipe(study)))
+    if study.meshes_wheel(run):
+        needed.append(wheel_body(wheel_recipe(study)))
+    if study.needs_wheel_modes(run):
+        needed.append(modes_body(modes_recipe(study)))
+    return needed
 
 
 def journey(study: Study, run: str) -> Journey:

@@ -81,7 +81,7 @@ def run_inputs(study: Study, inputs: Inputs, run: str) -> list[Any]:
     shared = {k: v for k, v in inputs.config.items() if k not in ("runs", "compare", "solid")}
     # Beams take their section from the solid's mesh, so its size matters to them as well.
     solid = study.solid.resolved() | {"wheel_section": Path(study.solid.wheel_section).name}
-    shared["solid"] = solid if study.bodies(run) else solid["mesh_size"]
+    shared["solid"] = solid if study.meshes_rail(run) else solid["mesh_size"]
     # with modes in another run the wheel is meshed more finely round its circumference
-    shared["modes"] = "wheel" in study.bodies(run) and study.has_wheel_modes
+    shared["modes"] = study.meshes_wheel(run) and study.has_wheel_modes
     return [study.config()["runs"][run], shared]

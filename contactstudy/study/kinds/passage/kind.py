@@ -60,7 +60,7 @@ class PassageKind(Kind):
         from contactstudy.study.kinds.passage.inputs import run_inputs
 
         def light(run: str) -> bool:
-            return not study.bodies(run) and journey(study, run).n_steps <= LIGHT
+            return not study.meshes_rail(run) and journey(study, run).n_steps <= LIGHT
 
         return [
             Work(name, run_inputs(study, inputs, name), long=run.needs_solid, light=light(name))

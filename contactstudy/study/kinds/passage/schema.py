@@ -99,13 +99,18 @@ class Study:
         pressed = isinstance(table, PointRun) and table.law == "linear" and table.k_r == "tangent"
         return pressed and self.track.rail.profile_name is not None
 
-    def bodies(self, run: str) -> tuple[str, ...]:
-        """Condensed bodies that a run needs: "rail", "wheel", "wheel modes"."""
-        surface = isinstance(self.runs[run], SurfaceRun)
-        rail = self.runs[run].needs_solid or self.presses(run)
-        wheel = (surface or self.presses(run)) and self.wheel(run) != "rigid"
-        modes = surface and self.wheel(run) == "modal"
-        return ("rail",) * rail + ("wheel",) * wheel + ("wheel modes",) * modes
+    def meshes_rail(self, run: str) -> bool:
+        """Whether a run needs the meshed rail, as all do that need a meshed wheel."""
+        return self.runs[run].needs_solid or self.presses(run)
+
+    def meshes_wheel(self, run: str) -> bool:
+        """Whether a run needs the elastic wheel."""
+        pressed = isinstance(self.runs[run], SurfaceRun) or self.presses(run)
+        return pressed and self.wheel(run) != "rigid"
+
+    def needs_wheel_modes(self, run: str) -> bool:
+        """Whether a run needs the wheel's elastic modes."""
+        return isinstance(self.runs[run], SurfaceRun) and self.wheel(run) == "modal"
 
     def wheel(self, run: str) -> str:
         """Model of the meshed wheel in a run: its own or the study's."""
@@ -116,7 +121,7 @@ class Study:
     @property
     def has_wheel_modes(self) -> bool:
         """Whether any run is with the wheel's elastic modes."""
-        return any("wheel modes" in self.bodies(run) for run in self.runs)
+        return any(self.needs_wheel_modes(run) for run in self.runs)
 
     def time_step(self, run: str) -> float:
         """Time step of a run in s: its own or the journey's."""
@@ -153,7 +158,7 @@ class Study:
     def _used(self) -> list[str]:
         if not self.runs:
             return ["irregularity", "track"]
-        meshed = any(self.bodies(run) for run in self.runs)
+        meshed = any(self.meshes_rail(run) for run in self.runs)
         placed = meshed and not self.solid.half
         used = {"solid": meshed, "wheelset": placed, "scan": placed and self.scan.used}
         return [key for key in SECTIONS if used.get(key, True)]
