@@ -8,7 +8,7 @@ from scipy.optimize import nnls
 
 from contactstudy.contact.augmented import Penalty
 from contactstudy.contact.moving_wheel import MovingWheel
-from contactstudy.contact.surface_coupling import Path, SurfaceCoupling
+from contactstudy.contact.surface_coupling import SurfaceCoupling, WheelPath
 from contactstudy.dynamics.banded import Factor
 from contactstudy.exceptions import NumericalError
 from contactstudy.geometry.facets import tread_candidates
@@ -83,7 +83,7 @@ def setting(seed: int = 0, n_steps: int = 6):  # type: ignore[no-untyped-def]
     wheel = MovingWheel(
         points, WheelFlexibility(WheelRecipe(), x, y, wheel_F, *none), np.array([N_TRACK])
     )
-    path = Path(positions, roughness)
+    path = WheelPath(positions, roughness)
     coupling = SurfaceCoupling(track, wheel, path, search, Penalty(PENALTY))
     G = rng.standard_normal((N_TRACK + 1, N_TRACK + 1))
     S = G @ G.T * 1e9 + np.diag(np.full(N_TRACK + 1, 2e10))

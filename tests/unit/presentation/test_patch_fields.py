@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from contactstudy.figures import drawings
 from contactstudy.figures.animation import frames_of, write_animations
 from contactstudy.halfspace.subsurface import stress_maxima
 from contactstudy.plot.style import figure_style
 from contactstudy.report.content import content
 from contactstudy.solvers.patch_fields import instant_pressure
+from contactstudy.study.kinds.passage.drawings import drawings
 
 FRAMES = 3
 
