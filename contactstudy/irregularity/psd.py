@@ -17,7 +17,7 @@ from contactstudy.arrays import Array
 from contactstudy.exceptions import InputError
 
 Sides = Literal["one", "two"]
-Wavenumber = Literal["rad/m", "1/m"]
+WavenumberUnit = Literal["rad/m", "1/m"]
 Formula = Callable[[Array], Array]
 
 
@@ -36,7 +36,7 @@ class Convention:
     """
 
     sides: Sides = "two"
-    wavenumber: Wavenumber = "rad/m"
+    wavenumber: WavenumberUnit = "rad/m"
     square: float = 1.0
 
     @property

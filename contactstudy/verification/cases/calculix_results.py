@@ -57,11 +57,6 @@ class CalculixPress:
         return np.asarray(force[elements] / areas)
 
 
-def read_press(path: Path, penalty: float, symmetric: bool = True) -> CalculixPress:
-    """Press of the last step of a .dat file, see `read_presses`."""
-    return read_presses(path, penalty, symmetric)[-1]
-
-
 def read_presses(path: Path, penalty: float, symmetric: bool = True) -> tuple[CalculixPress, ...]:
     """Read the load steps of a .dat file.
 

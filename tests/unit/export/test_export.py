@@ -21,7 +21,7 @@ from contactstudy.track.model import Track
 from contactstudy.track.solid import solid_rail
 from contactstudy.track.unreduced import UnreducedTrack
 from contactstudy.verification.cases import run_calculix as runner
-from contactstudy.verification.cases.calculix_results import read_press, read_presses
+from contactstudy.verification.cases.calculix_results import read_presses
 
 CELL = CellRecipe(size=0.008, length=0.128, coarse=0.012, contact_half_width=0.018)
 # hardly a web: the brute force has every node of the ring
@@ -161,7 +161,7 @@ RESULTS = """
 def test_results_of_the_last_step_are_read(tmp_path):
     path = tmp_path / "press.dat"
     path.write_text(RESULTS)
-    press = read_press(path, 1e16)
+    (press,) = read_presses(path, 1e16)
     assert press.approach == pytest.approx(125e-6)
     assert press.force == pytest.approx(5e3)
     assert press.area == pytest.approx(6e-6)
@@ -176,7 +176,7 @@ def test_results_of_the_last_step_are_read(tmp_path):
     assert [p.approach for p in read_presses(path, 1e16)] == pytest.approx([125e-6, 126e-6])
     path.write_text(RESULTS.partition(" statistics")[0])
     with pytest.raises(NumericalError, match="statistics"):
-        read_press(path, 1e16)
+        read_presses(path, 1e16)
 
 
 def test_calculix_that_is_absent_or_stops(tmp_path, monkeypatch):
