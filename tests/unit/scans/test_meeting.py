@@ -18,7 +18,7 @@ from contactstudy.scans import Scan, meeting, uncovered
 from contactstudy.scans.scan import developed
 from contactstudy.study.kinds.passage.scan import ScanFiles
 from contactstudy.validation import read
-from contactstudy.verification.cases.scanned_profiles import synthetic_scan
+from contactstudy.verification.cases.synthetic_scan import synthetic_scan
 
 RAIL, S1002 = rail_curve("60E1"), wheel_curve("S1002")
 RADIUS, POSE = 0.46, Pose(math.atan(1 / 40))

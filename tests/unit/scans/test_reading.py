@@ -7,7 +7,7 @@ import trimesh
 from contactstudy.exceptions import InputError
 from contactstudy.profiles.named import rail_curve, wheel_curve
 from contactstudy.scans import read_mesh, read_scan
-from contactstudy.verification.cases.scanned_profiles import synthetic_scan
+from contactstudy.verification.cases.synthetic_scan import synthetic_scan
 
 RAIL = synthetic_scan(rail_curve("60E1"), 0.02, step=2e-3)
 WHEEL = synthetic_scan(wheel_curve("S1002"), 0.04, step=2e-3)

@@ -11,7 +11,7 @@ from contactstudy.profiles.named import rail_curve, wheel_curve
 from contactstudy.profiles.scanned_rail import fit_rail_head
 from contactstudy.profiles.scanned_wheel import fit_wheel_tread
 from contactstudy.scans import read_scan
-from contactstudy.verification.cases.scanned_profiles import Standing, synthetic_scan
+from contactstudy.verification.cases.synthetic_scan import Standing, synthetic_scan
 
 RAIL, S1002 = rail_curve("60E1"), wheel_curve("S1002")
 

@@ -14,7 +14,7 @@ from contactstudy.study.kinds.passage.placing import geometry
 from contactstudy.study.kinds.passage.reading import parse_study
 from contactstudy.study.loading import load_study
 from contactstudy.study.plan import plan_study
-from contactstudy.verification.cases.scanned_profiles import synthetic_scan
+from contactstudy.verification.cases.synthetic_scan import synthetic_scan
 
 STUDY = """
 [solid]
