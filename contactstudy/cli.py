@@ -1,4 +1,4 @@
-"""Commands: run, check, reproduce, verify, export, studies, cache.
+"""Commands: run, check, reproduce, verify, export, studies, keys, cache.
 
 Exit status 0, 1 (broke down, or a check fails), 2 (input), 130 (interrupted).
 """
@@ -196,6 +196,19 @@ def studies() -> None:
     for name, path in shipped.items():
         title = tomllib.loads(path.read_text("utf-8")).get("title", "")
         print(f"{name:<{width}}  {title}")
+
+
+@app.command
+def keys() -> None:
+    """Print every key of study files with unit, default, limits and meaning, in Markdown."""
+    from contactstudy.study.keys import key_reference
+    from contactstudy.study.kind import KINDS, find_kind
+
+    for name in KINDS:
+        kind = find_kind(name)
+        inner = {f"{group}.NAME": table for group, table in kind.inner_tables.items()}
+        print(f"# {name.capitalize()}\n\n{kind.about}\n")
+        print(key_reference({**kind.tables, **inner}))
 
 
 @app.command

@@ -163,6 +163,8 @@ class Kind:
     """What one study computes; a kind overrides the methods that have no default."""
 
     name: str
+    #: One sentence.
+    about: ClassVar[str] = ""
     #: "module:function" of what does a piece of work in a worker process:
     #: ``function(study, name, progress)``. The module's code and all that it imports is part of
     #: what is computed, so it imports nothing that draws or prints.
@@ -171,6 +173,8 @@ class Kind:
     form: ClassVar[Form | None] = DATASET
     #: Table of the study file -> its model: for reading, ``--set`` and the reference of keys.
     tables: ClassVar[Mapping[str, Any]]
+    #: The same for tables in tables: "runs" for ``[runs.NAME]``.
+    inner_tables: ClassVar[Mapping[str, Any]] = {}
     #: Table -> title of its parameters in the report, which shows no others.
     titles: ClassVar[Mapping[str, str]] = {}
 

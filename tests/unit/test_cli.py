@@ -75,6 +75,14 @@ def test_studies_lists_names_and_titles(capsys):
     assert "point_vs_surface    Point contact against surface contact" in out
 
 
+def test_keys_are_listed_with_their_meaning(capsys):
+    assert cli.main(["keys"]) == 0
+    out = capsys.readouterr().out
+    for table in ("track", "solid", "runs.NAME", "positions"):
+        assert f"## [{table}]\n" in out
+    assert "| `pad_stiffness` | N/m | 6.5e+07 |" in out
+
+
 def test_check_prints_values_sizes_and_time_without_running(capsys, short, tmp_path):
     assert cli.main(["check", str(short), "--set", "journey.speed=250 km/h"]) == 0
     out = capsys.readouterr().out

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from contactstudy.executor import Task
 from contactstudy.reporter import Reporter
 from contactstudy.study.kind import Cost, Inputs, Kind, Report, Work
+from contactstudy.study.kinds.passage.runs import SOLVERS
 from contactstudy.study.kinds.passage.schema import SECTIONS, Study
 from contactstudy.study.results import StudyResults
 
@@ -25,7 +26,9 @@ class PassageKind(Kind):
 
     name = "passage"
     computing = "contactstudy.study.kinds.passage.execution:execute_run"
+    about = "Wheels run over a track, by several models that are compared."
     tables = SECTIONS
+    inner_tables: ClassVar = {"runs": SOLVERS}
     titles: ClassVar = {
         "irregularity": "Irregularity",
         "track": "Track (per rail)",

@@ -24,6 +24,7 @@ class PositionsKind(Kind):
 
     name = "positions"
     computing = "contactstudy.study.kinds.positions.press:press_one"
+    about = "A wheelset pressed on its rails at given positions, both as half-spaces."
     form = None
     tables: ClassVar = {"positions": Positions}
     titles: ClassVar = {"positions": "Wheelset and positions"}
