@@ -1,8 +1,8 @@
-"""Comparative verification of wheel-rail contact models: point contact against surface contact."""
+"""Comparative verification of wheel-rail contact models: point contact against surface contact.
 
-from importlib.metadata import PackageNotFoundError, version
+The names that a notebook needs, listed in ``__init__.pyi``; each is imported when first used.
+"""
 
-try:
-    __version__ = version("contactstudy")
-except PackageNotFoundError:  # run from a source tree that was never installed
-    __version__ = "0+unknown"
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -251,7 +251,7 @@ def _each_its_own(studies: Sequence[Study], folders: Sequence[Path]) -> None:
 
 
 def _version() -> str:
-    from contactstudy import __version__
+    from contactstudy.version import __version__
 
     return __version__
 

@@ -43,21 +43,39 @@ def run_study(
         When a run broke down; the others are finished and kept.
     """
     reporter, out_dir = reporter or Quiet(), Path(out_dir)
-    ensure_writable(out_dir)
-    with reporter.stage("reading the study"):
-        plan = plan_study(study, out_dir, tuple(load_companions(study)))
-    for warning in plan.warnings:
-        reporter.note(warning)
+    plan = _planned(study, out_dir, reporter)
     if (done := finished_results(plan)) is not None:
         reporter.note(f"{out_dir}: all results are there and up to date")
         return done
-    found = compute(plan, jobs, reporter)
-    with reporter.stage("comparing the runs"):
-        results = collect(plan, found)
+    results = _computed(plan, jobs, reporter)
+    with reporter.stage("writing the results"):
         written = write(results, out_dir)
     written += render(results, out_dir, reporter)
     _mark_finished(plan, written)
     return results
+
+
+def compute_study(
+    study: Study, folder: Path, jobs: int = 2, reporter: Reporter | None = None
+) -> StudyResults:
+    """As `run_study`, but only the finished runs are kept, in ``folder/runs``."""
+    reporter = reporter or Quiet()
+    return _computed(_planned(study, folder, reporter), jobs, reporter)
+
+
+def _planned(study: Study, folder: Path, reporter: Reporter) -> Plan:
+    ensure_writable(folder)
+    with reporter.stage("reading the study"):
+        plan = plan_study(study, folder, tuple(load_companions(study)))
+    for warning in plan.warnings:
+        reporter.note(warning)
+    return plan
+
+
+def _computed(plan: Plan, jobs: int, reporter: Reporter) -> StudyResults:
+    found = compute(plan, jobs, reporter)
+    with reporter.stage("comparing the runs"):
+        return collect(plan, found)
 
 
 def write(results: StudyResults, out_dir: Path) -> list[Path]:

@@ -7,7 +7,7 @@ import platform
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
-import contactstudy
+from contactstudy.version import __version__
 
 #: Packages whose code decides the numbers; `WRITING` ones only keep, draw or print them.
 COMPUTING = ("numpy", "scipy", "numba", "trimesh", "python-fcl")
@@ -16,7 +16,7 @@ WRITING = ("xarray", "h5netcdf", "h5py", "meshio", "matplotlib", "typst")
 
 @functools.cache
 def _versions(packages: tuple[str, ...]) -> dict[str, str]:
-    found = {"contactstudy": contactstudy.__version__, "Python": platform.python_version()}
+    found = {"contactstudy": __version__, "Python": platform.python_version()}
     for package in packages:
         try:
             found[package] = version(package)

@@ -3,13 +3,13 @@
 from collections.abc import Sequence
 from typing import Any
 
-import contactstudy
 from contactstudy.plot.text import label
 from contactstudy.report.blocks import Block, bullets, paragraphs
 from contactstudy.report.parameters import parameter_tables
 from contactstudy.report.quantity import quantity
 from contactstudy.study.kind import Part, find_kind
 from contactstudy.study.results import StudyResults
+from contactstudy.version import __version__
 
 Content = dict[str, Any]
 
@@ -28,7 +28,7 @@ def content(results: StudyResults, timings: bool) -> Content:
     tables = parameter_tables(results)
     data: Content = {
         "title": results.title,
-        "subtitle": f"Study {label(results.name)} · contactstudy {contactstudy.__version__}",
+        "subtitle": f"Study {label(results.name)} · contactstudy {__version__}",
         "name": results.name,
         "abstract": list(report.abstract),
         "subject": [*paragraphs(results.description), *report.subject],

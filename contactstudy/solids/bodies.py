@@ -1,6 +1,6 @@
 """The bodies that are condensed once and kept."""
 
-from contactstudy.solids.cache import CachedBody
+from contactstudy.solids.cache import CachedBody, cached
 from contactstudy.solids.cell import RailCell, condense
 from contactstudy.solids.recipe import CellRecipe
 from contactstudy.solids.wheel import WheelFlexibility, WheelRecipe, elastic_wheel
@@ -20,3 +20,8 @@ def wheel_body(recipe: WheelRecipe) -> CachedBody[WheelFlexibility]:
 def modes_body(recipe: ModesRecipe) -> CachedBody[WheelModes]:
     """The elastic modes of a wheel."""
     return CachedBody("wheel modes", recipe, wheel_modes, WheelModes)
+
+
+def meshed_wheel(recipe: WheelRecipe | None = None) -> WheelFlexibility:
+    """An elastic wheel, the default one without a recipe, condensed or taken from the cache."""
+    return cached(wheel_body(recipe or WheelRecipe()))

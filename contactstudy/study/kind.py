@@ -11,7 +11,7 @@ A study file is of the kind whose name is one of its tables, else a passage.
 from __future__ import annotations
 
 import importlib
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Protocol
@@ -20,6 +20,7 @@ from contactstudy.exceptions import InputError
 from contactstudy.executor import Task
 from contactstudy.reporter import Reporter
 from contactstudy.store import DATASET, Form
+from contactstudy.study.overrides import Overrides
 from contactstudy.study.results import StudyResults
 
 if TYPE_CHECKING:
@@ -178,9 +179,7 @@ class Kind:
     #: Table -> title of its parameters in the report, which shows no others.
     titles: ClassVar[Mapping[str, str]] = {}
 
-    def load(
-        self, path: Path, data: dict[str, Any], overrides: Iterable[str], main: Any = None
-    ) -> Any:
+    def load(self, path: Path, data: dict[str, Any], overrides: Overrides, main: Any = None) -> Any:
         """Check the content of a study file; `main` is the study that it accompanies, if any."""
         raise NotImplementedError
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -11,6 +11,7 @@ from typing import Any
 from contactstudy.exceptions import InputError
 from contactstudy.resources import resource
 from contactstudy.study.kind import kind_of_file
+from contactstudy.study.overrides import Overrides
 from contactstudy.validation import complaint, did_you_mean
 
 # of a study's results, beside which those of its companions lie
@@ -43,15 +44,16 @@ def find_study(study: str | Path) -> Path:
     )
 
 
-def load_study(study: str | Path, overrides: Iterable[str] = (), main: Any = None) -> Any:
+def load_study(study: str | Path, overrides: Overrides = (), main: Any = None) -> Any:
     """Read a study file of any kind, apply overrides, and check it.
 
     Parameters
     ----------
     study : str or Path
         A path, or the name of a shipped study.
-    overrides : iterable of str
-        ``key=value`` with dotted keys; values as in TOML, quotes around text may be left out.
+    overrides : iterable of str, or mapping
+        ``key=value`` with dotted keys; values as in TOML, quotes around text may be left out. Or
+        dotted key -> value as in the file.
     main : Study, optional
         The study that this one accompanies: a passage takes track, vehicle, journey and solid
         from it where the file has no such table, so that both are about the same wheel and rail.

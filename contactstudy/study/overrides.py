@@ -1,4 +1,4 @@
-"""Keys of a study that the command line overrides."""
+"""Keys of a study that the command line, or a caller from Python, overrides."""
 
 from __future__ import annotations
 
@@ -8,10 +8,13 @@ from typing import Any
 
 from contactstudy.validation import Table, entries
 
+Overrides = Iterable[str] | Mapping[str, Any]
+"""``key=value`` as on a command line, or dotted key -> value as in a study file."""
+
 
 def override(
     data: dict[str, Any],
-    texts: Iterable[str],
+    values: Overrides,
     tables: Mapping[str, Table],
     groups: Mapping[str, Table] | None = None,
 ) -> list[str]:
@@ -24,8 +27,9 @@ def override(
     ----------
     data : dict
         Content as TOML gives it.
-    texts : iterable of str
-        ``key=value``; values as in TOML, quotes around text may be left out.
+    values : iterable of str, or mapping
+        ``key=value``; values as in TOML, quotes around text may be left out. Or key -> value as
+        TOML would give it.
     tables : mapping of str to type of Parameters or Variants
         The tables of the file.
     groups : mapping, optional
@@ -36,13 +40,15 @@ def override(
     list of str
         Complaints.
     """
-    problems, given = [], set()
-    for text in texts:
-        problems += _override(data, text, tables, groups or {})
-        given.add(text.partition("=")[0].strip())
+    groups, problems = groups or {}, list[str]()
+    if not isinstance(values, Mapping):
+        values, problems = _read(values, tables, groups)
+    for key, value in values.items():
+        problems += _put(data, key, value)
+    given = set(values)
     for name, table in tables.items():
         _leave_out(data.get(name), table, name, given)
-    for group, table in (groups or {}).items():
+    for group, table in groups.items():
         members = data.get(group)
         for name, member in members.items() if isinstance(members, dict) else ():
             _leave_out(member, table, f"{group}.{name}", given)
@@ -63,25 +69,36 @@ def _leave_out(data: Any, table: Table, path: str, given: set[str]) -> None:
             del data[key]
 
 
-def _override(
-    data: dict[str, Any], text: str, tables: Mapping[str, Table], groups: Mapping[str, Table]
-) -> list[str]:
-    key, equals, value = text.partition("=")
-    parts = key.strip().split(".")
-    if not equals or not all(parts):
-        return [f"--set {text}: must be KEY=VALUE with a dotted key, e.g. journey.speed='250 km/h'"]
-    table = data
-    for part in parts[:-1]:
-        table = table.setdefault(part, {})
-        if not isinstance(table, dict):
-            return [f"--set {text}: {key.strip()} goes through a value that is no table"]
-    read = _value(value.strip())
-    found = (tables if len(parts) == 2 else groups).get(parts[0])
-    if found is not None and not isinstance(read, str):
-        entry = entries(found).get(parts[-1])
-        if entry is not None and entry.parameter.only_text:
-            read = value.strip()  # 60E1 is a profile, not 600
-    table[parts[-1]] = read
+def _read(
+    texts: Iterable[str], tables: Mapping[str, Table], groups: Mapping[str, Table]
+) -> tuple[dict[str, Any], list[str]]:
+    """Values of the keys that a command line gives."""
+    values, problems = dict[str, Any](), []
+    for text in texts:
+        key, equals, given = (part.strip() for part in text.partition("="))
+        parts = key.split(".")
+        if not equals or not all(parts):
+            problems.append(
+                f"--set {text}: must be KEY=VALUE with a dotted key, e.g. journey.speed='250 km/h'"
+            )
+            continue
+        value = _value(given)
+        found = (tables if len(parts) == 2 else groups).get(parts[0])
+        if found is not None and not isinstance(value, str):
+            entry = entries(found).get(parts[-1])
+            if entry is not None and entry.parameter.only_text:
+                value = given  # 60E1 is a profile, not 600
+        values[key] = value
+    return values, problems
+
+
+def _put(data: dict[str, Any], key: str, value: Any) -> list[str]:
+    *path, last = key.split(".")
+    for part in path:
+        data = data.setdefault(part, {})
+        if not isinstance(data, dict):
+            return [f"{key}: goes through a value that is no table"]
+    data[last] = list(value) if isinstance(value, tuple) else value
     return []
 
 

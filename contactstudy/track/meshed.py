@@ -44,5 +44,5 @@ def not_meshed(track: object) -> list[str]:
         return []
     return [
         f"track: a {type(track).__name__} has no meshed rail; give a SolidTrack, such as"
-        " SolidTrack(Track(rail=solid_rail(recipe)), condense(recipe)) with a CellRecipe"
+        " contactstudy.meshed_track()"
     ]

@@ -2,11 +2,14 @@
 
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
+from typing import Any
 
 import numpy as np
 
 from contactstudy.arrays import Array, BoolArray, IntArray
 from contactstudy.exceptions import InputError
+from contactstudy.solids.bodies import rail_body
+from contactstudy.solids.cache import cached
 from contactstudy.solids.cell import RailCell, section_mesh_of
 from contactstudy.solids.pair import CellPair, cell_pair
 from contactstudy.solids.recipe import CellRecipe
@@ -27,6 +30,20 @@ def solid_rail(recipe: CellRecipe) -> Rail:
         density=recipe.density,
         profile_name=recipe.profile,
     )
+
+
+def meshed_track(recipe: CellRecipe | None = None, **of_track: Any) -> "SolidTrack":
+    """A track on its meshed rail, whose cell is condensed or taken from the cache.
+
+    Parameters
+    ----------
+    recipe : CellRecipe, optional
+        Of the rail's cell; the default one without it.
+    **of_track
+        Parameters of a `Track` but for its rail.
+    """
+    recipe = recipe or CellRecipe()
+    return SolidTrack(Track(rail=solid_rail(recipe), **of_track), cached(rail_body(recipe)))
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,6 @@ from pathlib import Path
 
 import numpy as np
 
-from contactstudy import __version__
 from contactstudy.exceptions import InputError
 from contactstudy.export.calculix import PressLoading, calculix_input
 from contactstudy.export.press_mesh import PressMesh, press_mesh
@@ -22,6 +21,7 @@ from contactstudy.study.kinds.passage.runs import SurfaceRun
 from contactstudy.study.kinds.passage.schema import Study
 from contactstudy.units import UnitError, to_si
 from contactstudy.validation import complaint, did_you_mean, raise_if
+from contactstudy.version import __version__
 
 CELLS = 4
 """Rail cells that are exported by default: the fewest that a condensed track has."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -11,6 +11,7 @@ from contactstudy.reporter import Reporter
 from contactstudy.study.kind import Cost, Inputs, Kind, Report, Work
 from contactstudy.study.kinds.passage.runs import SOLVERS
 from contactstudy.study.kinds.passage.schema import SECTIONS, Study
+from contactstudy.study.overrides import Overrides
 from contactstudy.study.results import StudyResults
 
 if TYPE_CHECKING:
@@ -38,7 +39,7 @@ class PassageKind(Kind):
     }
 
     def load(
-        self, path: Path, data: dict[str, Any], overrides: Iterable[str], main: Study | None = None
+        self, path: Path, data: dict[str, Any], overrides: Overrides, main: Study | None = None
     ) -> Study:
         """Check the content of a study file."""
         from contactstudy.study.kinds.passage.reading import load_passage

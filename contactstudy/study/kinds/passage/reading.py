@@ -10,7 +10,7 @@ from contactstudy.study.kinds.passage.checks import combined
 from contactstudy.study.kinds.passage.runs import SOLVERS
 from contactstudy.study.kinds.passage.schema import SECTIONS, Study, wrong_reference, wrong_runs
 from contactstudy.study.loading import title_and_description
-from contactstudy.study.overrides import override
+from contactstudy.study.overrides import Overrides, override
 from contactstudy.validation import complaint, did_you_mean, raise_if, read, resolve_paths, unknown
 
 _TOP_LEVEL = ("title", "description", "companions", *SECTIONS, "runs", "compare")
@@ -18,7 +18,7 @@ _SHARED = ("track", "vehicle", "journey", "solid", "wheelset", "scan")
 
 
 def load_passage(
-    path: Path, data: dict[str, Any], overrides: Iterable[str], main: Study | None = None
+    path: Path, data: dict[str, Any], overrides: Overrides, main: Study | None = None
 ) -> Study:
     """Check the content of a passage's file, with overrides; files in it are relative to it."""
     companions = data.get("companions")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -13,6 +13,7 @@ from contactstudy.study.kinds.positions.table import (
     PositionsStudy,
     load_positions,
 )
+from contactstudy.study.overrides import Overrides
 from contactstudy.study.results import StudyResults
 
 if TYPE_CHECKING:
@@ -30,7 +31,7 @@ class PositionsKind(Kind):
     titles: ClassVar = {"positions": "Wheelset and positions"}
 
     def load(
-        self, path: Path, data: dict[str, Any], overrides: Iterable[str], main: Any = None
+        self, path: Path, data: dict[str, Any], overrides: Overrides, main: Any = None
     ) -> PositionsStudy:
         """Check the content of a study file."""
         return load_positions(path, data, overrides)

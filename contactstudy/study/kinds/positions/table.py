@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -18,7 +18,7 @@ from contactstudy.profiles.named import rail_curve, wheel_curve
 from contactstudy.profiles.wheel_file import named_file_digest
 from contactstudy.study.kinds.passage.wheelset import PATHS, WheelsetPosition, off_track
 from contactstudy.study.loading import title_and_description
-from contactstudy.study.overrides import override
+from contactstudy.study.overrides import Overrides, override
 from contactstudy.track.rail import Rail
 from contactstudy.units import UnitError, to_si
 from contactstudy.validation import (
@@ -191,9 +191,7 @@ class PositionsStudy:
         return {Path(n).name: found for n in names if (found := named_file_digest(n))}
 
 
-def load_positions(
-    path: Path, data: dict[str, Any], overrides: Iterable[str] = ()
-) -> PositionsStudy:
+def load_positions(path: Path, data: dict[str, Any], overrides: Overrides = ()) -> PositionsStudy:
     """Check the content of a study file that has a table ``[positions]``.
 
     Parameters
