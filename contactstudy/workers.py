@@ -10,11 +10,13 @@ import contextlib
 import multiprocessing
 import pickle
 import signal
+import sys
 import threading
 from collections.abc import Callable, Iterator
 from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from contextvars import ContextVar
 from multiprocessing.connection import Connection
+from types import ModuleType
 from typing import Any
 
 from contactstudy.process import one_thread_environment
@@ -130,7 +132,7 @@ class _Worker:
         context = multiprocessing.get_context("spawn")
         self.pipe, far = context.Pipe()
         self.process = context.Process(target=_work, args=(far,), daemon=True)
-        with _starting, one_thread_environment(), _interrupts_held_back():
+        with _starting, one_thread_environment(), _interrupts_held_back(), _without_main():
             self.process.start()
         far.close()
 
@@ -161,6 +163,21 @@ def _work(pipe: Connection) -> None:
                 pipe.send((False, answer))
             except (pickle.PicklingError, TypeError, AttributeError) as error:
                 pipe.send((False, (False, error)))
+
+
+@contextlib.contextmanager
+def _without_main() -> Iterator[None]:
+    """Processes that are started meanwhile do not import the script at hand.
+
+    What they call is found by name in the package, so a user's script that runs studies needs no
+    ``if __name__ == "__main__"``.
+    """
+    main = sys.modules["__main__"]
+    sys.modules["__main__"] = ModuleType("__main__")
+    try:
+        yield
+    finally:
+        sys.modules["__main__"] = main
 
 
 @contextlib.contextmanager

@@ -17,6 +17,7 @@ ORDER = (
         "csv_rows",
         "resources",
         "files",
+        "version",
         "code",
         "compiled",
         "process",
@@ -43,7 +44,7 @@ ORDER = (
     ("figures",),
     ("report",),
     ("study/kinds",),
-    ("driver",),
+    ("driver", "notebook"),
     ("verification/cases",),
     ("cli", "__main__"),
 )

@@ -1,0 +1,86 @@
+"""The names that ``import contactstudy as cs`` gives, and README's snippets."""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import contactstudy as cs
+from contactstudy.exceptions import InputError
+
+SNIPPETS = re.findall(
+    r"```python\n(.*?)```", (Path(__file__).parents[2] / "README.md").read_text("utf-8"), re.DOTALL
+)
+SHORT = {
+    "journey.from": "3 m",
+    "journey.to": "3.4 m",
+    "journey.fade_in": "0.1 m",
+    "track.length": "6 m",
+}
+
+
+def test_every_name_is_there():
+    for name in cs.__all__:
+        assert getattr(cs, name) is not None
+    assert set(cs.__all__) <= set(dir(cs))
+
+
+def test_unknown_names_are_refused():
+    with pytest.raises(AttributeError, match="surface_contacts"):
+        cs.surface_contacts  # noqa: B018
+
+
+@pytest.mark.parametrize("code", SNIPPETS, ids=["study", "solvers"])
+def test_snippets_of_the_readme(code, tmp_path):
+    """As a script, without a guard for the worker processes."""
+    script = tmp_path / "snippet.py"
+    script.write_text(code, "utf-8")
+    made = subprocess.run(
+        [sys.executable, script], capture_output=True, check=False, text=True, timeout=500
+    )
+    assert made.returncode == 0, made.stderr
+    assert made.stdout
+
+
+def test_surface_contact_takes_ten_lines_at_most():
+    assert all(len(code.strip().splitlines()) <= 10 for code in SNIPPETS)
+
+
+def test_a_study_runs_without_writing_and_is_found_again(tmp_path, monkeypatch):
+    monkeypatch.setenv("CONTACTSTUDY_CACHE", str(tmp_path / "cache"))
+    monkeypatch.chdir(tmp_path)
+    study = tmp_path / "mine.toml"
+    study.write_text('[runs.point]\nsolver = "point"\n', "utf-8")
+    results = cs.run(study, SHORT | {"irregularity.seed": 2})
+    assert list(results.runs) == ["point"]
+    assert "Group: /point" in repr(results)
+    assert "point" in results._repr_html_()
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["cache", "mine.toml"]
+    kept = {path: path.stat().st_mtime_ns for path in (tmp_path / "cache" / "runs").iterdir()}
+    again = cs.run(cs.load(study, SHORT | {"irregularity.seed": 2}))
+    assert again.runs["point"].equals(results.runs["point"])
+    assert {path: path.stat().st_mtime_ns for path in kept} == kept
+    written = cs.run(study, SHORT | {"irregularity.seed": 2}, out=tmp_path / "out")
+    assert cs.open_results(tmp_path / "out")["point"].to_dataset().equals(written.tree["point"].ds)
+
+
+def test_values_are_checked_as_those_of_a_file():
+    with pytest.raises(InputError) as error:
+        cs.load("point_vs_surface", {"journey.to": "40 m", "track.pad_stifness": 1.0})
+    assert "track.pad_stifness: unknown key" in str(error.value)
+    assert "journey.to = 40" in str(error.value)
+
+
+def test_check_prints_the_resolved_values(capsys):
+    cs.check(
+        "manchester", {"positions.lateral": [0.0], "positions.yaw": 0.0, "positions.roll": 0.0}
+    )
+    assert "positions.gauge" in capsys.readouterr().out
+
+
+def test_a_track_of_the_wrong_type_names_the_right_one():
+    contact = cs.SurfaceContact(cs.meshed_wheel())
+    with pytest.raises(InputError, match=r"give a SolidTrack, such as contactstudy.meshed_track"):
+        cs.surface_contact(cs.Track(), contact, cs.wheel_column(), cs.SmoothRail(), cs.Journey())
