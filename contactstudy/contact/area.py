@@ -110,7 +110,7 @@ def _edge(t: Array, dx: Array, dy: Array, limit: float, spacing: float, halves: 
 
 @compiled
 def area_below(t: Array, dx: Array, dy: Array, level: float) -> float:
-    """Area where an interpolated function is below a level.
+    """Area [m^2] where an interpolated function is below a level.
 
     The function is linear on the four triangles between the sides of a rectangle and its centre,
     where it has the mean of the corners.
@@ -121,12 +121,6 @@ def area_below(t: Array, dx: Array, dy: Array, level: float) -> float:
         Values at the grid's points.
     dx, dy : ndarray (nx-1,), (ny-1,)
         Steps of the grid in m.
-    level : float
-
-    Returns
-    -------
-    float
-        In m^2.
     """
     total = 0.0
     for i in range(len(dx)):

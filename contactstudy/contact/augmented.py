@@ -81,18 +81,7 @@ class Enforcement(Protocol):
 
 @dataclass(frozen=True)
 class Penalty(Parameters):
-    """Pressure = penalty x overlap; needs no start.
-
-    Parameters
-    ----------
-    penalty : float
-        eps in Pa/m.
-
-    Raises
-    ------
-    InputError
-        If the penalty is not positive.
-    """
+    """Pressure = penalty x overlap; needs no start."""
 
     penalty: Annotated[float, Unit("Pa/m"), Above(0), "pressure per penetration"] = 1e16
 
@@ -127,15 +116,6 @@ class AugmentedLagrangian(Parameters):
     tolerance : float
         In m. No point in contact is further than this from touching, whether by overlap or, as
         a multiplier may be too large as well, by a gap.
-    penalty : float
-        First penalty in Pa/m.
-    max_updates : int
-        Bound on the number of updates of the multipliers.
-
-    Raises
-    ------
-    InputError
-        If tolerance or penalty are not positive.
     """
 
     tolerance: Annotated[

@@ -19,8 +19,6 @@ from scipy.linalg import lapack
 from contactstudy.arrays import Array, BoolArray
 from contactstudy.exceptions import InputError, NumericalError
 
-Mask = BoolArray
-
 _APPROACHES = 60
 """Bound on the approaches tried for a resultant."""
 
@@ -85,7 +83,7 @@ def contact_forces(
     sides at once. Newton may cycle; so once the number of violations has not come down for
     `patience` exchanges, the same problem is solved as the convex programme that it is, min
     ``lam M lam/2 + gap lam`` over ``lam >= 0``, by Lawson and Hanson's method (1974, ch. 23),
-    which never goes up and therefore ends.
+    which never goes up and therefore ends. The result satisfies the conditions up to rounding.
 
     Parameters
     ----------
@@ -93,18 +91,8 @@ def contact_forces(
         Flexibility plus penalty compliance, ``W + diag(1/(eps A))``, in m/N; symmetric
         positive definite.
     gap : ndarray (n,)
-        Gaps without contact forces in m, negative where the bodies overlap.
-    guess : ndarray of bool (n,), optional
-        Points expected in contact; those that overlap when left out.
-    max_iterations : int
-        Bound on the number of linear solves.
-    patience : int
-        Full exchanges without progress that are tolerated.
-
-    Returns
-    -------
-    PatchForces
-        Satisfies the conditions up to rounding.
+        Gaps without contact forces in m, negative where the bodies overlap; these are the points
+        first tried in contact without a guess.
 
     Raises
     ------
@@ -187,7 +175,7 @@ def press(
     The gap without forces is ``gap - approach * normal`` and the resultant is
     ``F = sum(normal * forces)``, an increasing, piecewise linear function of the approach with
     the slope ``normal_A^T M_AA^-1 normal_A``. Newton's iteration, held within the bracket found
-    so far, ends on it exactly.
+    so far, ends on it, to 1e-12 relative; it may start at an approach given in m.
 
     Parameters
     ----------
@@ -197,15 +185,6 @@ def press(
         Component of the contact normal along the approach, positive.
     resultant : float
         F in N, positive.
-    guess : ndarray of bool (n,), optional
-        Points expected in contact.
-    approach : float, optional
-        Start of the iteration in m.
-
-    Returns
-    -------
-    PressedForces
-        With the resultant met to 1e-12 relative.
 
     Raises
     ------

@@ -8,13 +8,6 @@ from contactstudy.geometry.points import ContactPoints
 def check_edge(points: ContactPoints, active: BoolArray, where: str) -> None:
     """Raise if an outermost line of points is in contact.
 
-    Parameters
-    ----------
-    points : ContactPoints
-    active : ndarray of bool (n,)
-    where : str
-        Step and position, for the message.
-
     Raises
     ------
     NumericalError

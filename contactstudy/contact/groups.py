@@ -11,25 +11,12 @@ _OPEN = 2e-6  # m; at a jump from R300 to R80 elements of 2 mm are off by dk h^2
 
 
 def patch_numbers(points: ContactPoints, gap: Array, forces: Array) -> IntArray:
-    """Number the patches, from 1 on in the order of their resultants, the largest first.
+    """Patch of every point (n,), from 1 on by falling resultant; 0 where there is no force.
 
     Facets of the wheel's tread that share a side or a corner belong to one patch; so patches are
     apart where at least one whole facet between them carries nothing and is open by 2 um or more:
     at a ridge of the rail's profile whole facets inside a patch open by less. A force at a node is
-    carried by all the facets around it.
-
-    Parameters
-    ----------
-    points : ContactPoints
-    gap : ndarray (n,)
-        Of the deformed bodies in m.
-    forces : ndarray (n,)
-        Normal forces at the points in N.
-
-    Returns
-    -------
-    ndarray of int (n,)
-        Patch of every point that carries a force, 0 elsewhere.
+    carried by all the facets around it. Gaps of the deformed bodies (n,) in m, forces (n,) in N.
     """
     from scipy.ndimage import label
 
@@ -61,15 +48,8 @@ def contact_area(points: ContactPoints, gap: Array, forces: Array) -> float:
     """Area of all patches in m^2, of both halves of a symmetric model.
 
     Not the sum of the areas of the points in contact, single ones of which open inside a patch,
-    but from the gap around each patch, see `contactstudy.contact.area`.
-
-    Parameters
-    ----------
-    points : ContactPoints
-    gap : ndarray (n,)
-        Of the deformed bodies in m.
-    forces : ndarray (n,)
-        Normal forces at the points in N.
+    but from the gap around each patch, see `contactstudy.contact.area`; gap and forces as in
+    `patch_numbers`.
 
     Notes
     -----
@@ -98,22 +78,14 @@ def _area(points: ContactPoints, gap: Array, number: IntArray) -> float:
 
 
 def patch_record(points: ContactPoints, gap: Array, forces: Array) -> dict[str, float]:
-    """How many patches there are, their area, and of the one that carries most share and semi-axes.
-
-    Parameters
-    ----------
-    points : ContactPoints
-    gap : ndarray (n,)
-        Of the deformed bodies in m.
-    forces : ndarray (n,)
-        Normal forces at the points in N.
+    """Histories of the patches; gap and forces as in `patch_numbers`.
 
     Returns
     -------
     dict
-        `patch_count`, `contact_area` in m^2, `largest_patch_share` (of the sum of normal forces,
-        0 without contact), `semi_axis_along`, `semi_axis_across` in m, see
-        `ContactPoints.semi_axes`.
+        `patch_count`, `contact_area` in m^2, and of the patch that carries most
+        `largest_patch_share` (of the sum of normal forces, 0 without contact), `semi_axis_along`,
+        `semi_axis_across` in m, see `ContactPoints.semi_axes`.
     """
     number = patch_numbers(points, gap, forces)
     largest = np.where(number == 1, forces, 0.0)

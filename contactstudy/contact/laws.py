@@ -25,11 +25,6 @@ class LinearSpring(Parameters):
     The static load already sits on the rail (eq. 5), so k_r carries the dynamic part only. The
     constant that matches Hertz's law there is its tangent stiffness, 1.5 times the secant of
     eq. (7).
-
-    Parameters
-    ----------
-    stiffness : float
-        k_r [N/m].
     """
 
     stiffness: Annotated[float, Unit("N/m"), Above(0), "contact stiffness k_r"]
@@ -51,10 +46,7 @@ class RigidContact:
 class HertzSpring(Parameters):
     """Hertz's nonlinear law of the total force, lambda = k_H (-g)^(3/2), zero when apart.
 
-    Parameters
-    ----------
-    stiffness : float
-        k_H [N/m^1.5], see `contactstudy.halfspace.hertz`.
+    k_H: see `contactstudy.halfspace.hertz`.
     """
 
     stiffness: Annotated[float, Unit("N/m**1.5"), Above(0), "Hertz stiffness k_H"]
@@ -82,7 +74,6 @@ def point_forces(
 
     Parameters
     ----------
-    law : ContactLaw
     compliance : ndarray
         W, (nw, nw), symmetric positive definite, local compliance included [m/N].
     free_gap : ndarray
@@ -91,11 +82,6 @@ def point_forces(
         (nw,) [N].
     bilateral : bool
         Whether tension is possible; not for Hertz's law.
-
-    Returns
-    -------
-    ndarray
-        lambda, (nw,) [N].
 
     Raises
     ------

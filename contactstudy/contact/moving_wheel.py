@@ -17,7 +17,6 @@ class MovingWheel:
 
     Parameters
     ----------
-    points : ContactPoints
     body : WheelFlexibility
         Its quasi-static flexibility relative to the hub, without the share of the modes.
     dofs : ndarray of int (1 + m,)

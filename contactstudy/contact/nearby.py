@@ -12,11 +12,6 @@ class NearbyColumns:
 
     A pure cache: which patches were asked for before changes the time, not the answer.
 
-    Parameters
-    ----------
-    factor : Factor
-        Of S.
-
     Attributes
     ----------
     compliance : ndarray (nd, nd)

@@ -23,7 +23,7 @@ from contactstudy.dynamics.stepper import ContactStep
 
 @dataclass(frozen=True)
 class PointGaps:
-    """Gap of every wheel at every state, g = B u + c lambda - r.
+    """Gap of every wheel at every state, g = B u + c lambda - r, r (n_times, nw) in m.
 
     Parameters
     ----------
@@ -31,8 +31,6 @@ class PointGaps:
         Rows B.
     compliance : ndarray (n_times, nw)
         c [m/N]. Two wheels within one element do not share it: each feels its own.
-    irregularity : ndarray (n_times, nw)
-        r [m].
     """
 
     dofs: IntArray
@@ -55,14 +53,7 @@ class PointGaps:
 class PointCoupling:
     """One point under every wheel, with all positions known in advance; it has no memory.
 
-    Parameters
-    ----------
-    law : ContactLaw
-    gaps : PointGaps
-    static_loads : ndarray (nw,)
-        [N].
-    bilateral : bool
-        Whether the contact holds in tension (lateral direction).
+    Static loads (nw,) in N; bilateral: the contact holds in tension (lateral direction).
     """
 
     law: ContactLaw

@@ -43,23 +43,11 @@ class PressCurve:
 
 
 def tangent_stiffness(curve: PressCurve, load: float) -> float:
-    """Tangent dF/d(approach) of a press curve at a load, free of the mesh's steps.
+    """Tangent dF/d(approach) [N/m] of a press curve at a load [N], free of the mesh's steps.
 
     As the patch grows points enter it one after the other: the computed curve is a polygon
     whose own slope jumps by a few percent. So the curve ``approach = c1 F^(2/3) + c2 F``,
     Hertz's local part and a linear part for the bodies at large, is fitted first.
-
-    Parameters
-    ----------
-    curve : PressCurve
-        With at least four loads on both sides of `load`.
-    load : float
-        In N.
-
-    Returns
-    -------
-    float
-        N/m.
 
     Raises
     ------
@@ -89,23 +77,15 @@ def press_curve(
 
     Parameters
     ----------
-    points : ContactPoints
-        Geometry of the n contact points.
     flexibility : ndarray (n, n)
         Growth of the gap at the points (along the normal) in m for unit normal forces in N,
         of both bodies together.
     loads : ndarray (k,)
         Vertical resultants in N, positive.
-    law : Enforcement
-        Penalty or augmented Lagrangian.
     reference : ndarray (n,), optional
         Downward displacement in m/N of a reference on the lower body (the rail's centre line)
         for unit forces at the points: the approach is then measured from there instead of from
         the point to which the flexibility is fixed.
-
-    Returns
-    -------
-    PressCurve
     """
     compliance = law.compliance(points.area)
     M = flexibility + np.diag(compliance)

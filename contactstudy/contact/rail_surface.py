@@ -18,7 +18,6 @@ class RailUnderWheel:
 
     Attributes
     ----------
-    stretch : RailStretch
     along, across : ndarray (npx, nx), (npy, ny)
         Interpolation P = along x across from the stretch's nodes to the points.
     residual : Blend
@@ -54,11 +53,6 @@ class RailSurface:
 
     Only what repeats is kept: the spline, the means of the residual over the phases of the mesh,
     and the place asked for last. Asked twice, it answers the same.
-
-    Parameters
-    ----------
-    track : MeshedTrack
-    points : ContactPoints
     """
 
     def __init__(self, track: MeshedTrack, points: ContactPoints) -> None:

@@ -26,8 +26,6 @@ class SurfaceContact(Parameters):
 
     Parameters
     ----------
-    wheel : WheelFlexibility
-        Elastic or rigid.
     geometry : Geometry, optional
         Profiles and position of a whole wheel on a whole rail section: inclination, lateral
         shift, yaw. Half sections are centred and upright.
@@ -37,18 +35,6 @@ class SurfaceContact(Parameters):
     wheel_damping : float
         Damping ratio of the modes, an assumption: D. J. Thompson, Railway Noise and Vibration
         (2009), ch. 6, uses 1e-2, 1e-3 and 1e-4 for one, no and more waves round a wheel.
-    penalty : float
-        Pressure per penetration in Pa/m.
-    quadrature : {"gauss", "nodes"}
-        Contact points: Gauss points of the wheel's facets, or its tread nodes.
-    tolerance : float, optional
-        Largest penetration in m that an augmented Lagrangian leaves, see `contact.augmented`;
-        None: the penalty alone.
-
-    Raises
-    ------
-    InputError
-        For impossible values.
     """
 
     wheel: WheelFlexibility

@@ -62,15 +62,7 @@ class PatchState:
 
 @dataclass(frozen=True, eq=False)
 class WheelPath:
-    """Where the wheel is at every state.
-
-    Attributes
-    ----------
-    positions : ndarray (n_times,)
-        X of the wheel in m.
-    irregularity : ndarray (n_times, npx)
-        r at X + x of the lines of points in m.
-    """
+    """X of the wheel (n_times,), and r at X + x of the lines of points (n_times, npx), in m."""
 
     positions: Array
     irregularity: Array
@@ -78,18 +70,7 @@ class WheelPath:
 
 @dataclass(frozen=True, eq=False)
 class SurfaceCoupling:
-    """Pressure on the points of one wheel.
-
-    Parameters
-    ----------
-    track : MeshedTrack
-        Its dofs are the first ones of the system.
-    wheel : MovingWheel
-    path : WheelPath
-    candidates : CandidateList
-        Facets that can touch.
-    enforcement : Enforcement
-    """
+    """Pressure on the points of one wheel; the track's dofs are the first ones of the system."""
 
     track: MeshedTrack
     wheel: MovingWheel

@@ -14,13 +14,7 @@ from contactstudy.exceptions import NumericalError
 
 @dataclass(frozen=True)
 class LinearSystem:
-    """M u'' + C u' + K u = f.
-
-    Parameters
-    ----------
-    mass, damping, stiffness : csr_array
-        (n, n), symmetric, in an ordering of narrow band.
-    """
+    """M u'' + C u' + K u = f; all (n, n) and symmetric, in an ordering of narrow band."""
 
     mass: sp.csr_array
     damping: sp.csr_array
@@ -60,16 +54,7 @@ def _csr(matrix: sp.sparray) -> sp.csr_array:
 class Factor:
     """Cholesky factor L L^T of a sparse, symmetric, positive definite, narrow-banded matrix.
 
-    Parameters
-    ----------
-    matrix : sparse array
-        (n, n); only its lower half is read.
-
-    Attributes
-    ----------
-    n : int
-    half_bandwidth : int
-        Largest row minus column of a nonzero.
+    Only the lower half of the matrix (n, n) is read.
 
     Raises
     ------

@@ -19,15 +19,7 @@ from contactstudy.exceptions import InputError
 
 @dataclass(frozen=True)
 class Integrator:
-    """One member of the family; make it with the functions below.
-
-    Parameters
-    ----------
-    name : str
-    beta, gamma, alpha_m, alpha_f : float
-    order : int
-        Order of accuracy of displacements and velocities in time.
-    """
+    """One member of the family, of an order in time; make it with the functions below."""
 
     name: str
     beta: float
@@ -90,10 +82,7 @@ def newmark(beta: float, gamma: float) -> Integrator:
 def generalised_alpha(spectral_radius: float = 0.8) -> Integrator:
     """Generalised-alpha method of Chung and Hulbert.
 
-    Parameters
-    ----------
-    spectral_radius : float
-        rho at infinite frequency, 0 to 1; 1 has no numerical damping.
+    The spectral radius is that at infinite frequency; 1 has no numerical damping.
 
     Raises
     ------

@@ -24,23 +24,8 @@ def static_start(
     A vehicle on its own has rigid modes, so K is singular. Springs under the wheels make it
     regular; their feet z are moved until the springs carry no force (Broyden's method, exact
     after two moves for one wheel and a linear law). So any law, any number of wheels and any
-    vehicle start in equilibrium, with the resultants that statics asks for.
-
-    Parameters
-    ----------
-    system : LinearSystem
-    coupling : Coupling
-    external : ndarray (n,)
-        Constant load.
-    wheel_dofs : ndarray of int (nw,)
-        Dofs of the system that are wheels.
-    auxiliary_stiffness : float
-        Of each spring under a wheel [N/m].
-
-    Returns
-    -------
-    State
-        Step 0, with zero velocities and accelerations.
+    vehicle start in equilibrium, with the resultants that statics asks for. The auxiliary
+    stiffness is that of each spring [N/m], the external load (n,) constant.
 
     Raises
     ------

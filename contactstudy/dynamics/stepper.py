@@ -105,20 +105,7 @@ class Coupling(Protocol):
 
 @dataclass(frozen=True)
 class State:
-    """All that is known at the end of a step.
-
-    Parameters
-    ----------
-    step : int
-    time : float
-        Since the start [s].
-    u, v, a : ndarray (n,)
-        Displacements, velocities and accelerations.
-    load : ndarray (n,)
-        Total load, external and contact.
-    contact : ContactStep or None
-        With the contact's own state.
-    """
+    """All that is known at the end of a step: motion (n,), total load (n,), contact with its state."""
 
     step: int
     time: float
@@ -131,20 +118,9 @@ class State:
 
 @dataclass(frozen=True)
 class Steps:
-    """Equal steps in time.
+    """Equal steps of a length [s], positive.
 
-    Parameters
-    ----------
-    length : float
-        [s].
-    count : int
-    position : callable, optional
-        X of the leading wheel at a step, for the message when something breaks down [m].
-
-    Raises
-    ------
-    InputError
-        For a length that is not positive.
+    A message about a breakdown names X [m] of the leading wheel if its position is given.
     """
 
     length: float
@@ -167,13 +143,8 @@ def march(
 
     Parameters
     ----------
-    system : LinearSystem
-    coupling : Coupling or None
-        None: no contact.
     start : State
         At step 0, with accelerations and load that satisfy the equation of motion.
-    steps : Steps
-    integrator : Integrator
     external : ndarray or callable
         (n,) constant load, or the load at the end of each step.
 

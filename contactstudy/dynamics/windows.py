@@ -16,11 +16,6 @@ def windows(matrix: sp.csr_array) -> Windows:
     the same values share them: a rail is a chain of equal cells, and the few different rows
     then stay in the processor's cache.
 
-    Parameters
-    ----------
-    matrix : csr_array
-        (n, n).
-
     Returns
     -------
     first, width, begin : ndarray

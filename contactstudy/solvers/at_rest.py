@@ -20,7 +20,6 @@ class BodiesAtRest:
 
     Attributes
     ----------
-    points : ContactPoints
     flexibility : ndarray (n, n)
         Growth of the gap at the points in m for unit normal forces in N, the hub held.
     centre_line : ndarray (n,)
@@ -35,19 +34,9 @@ class BodiesAtRest:
 def bodies_at_rest(
     track: MeshedTrack, contact: SurfaceContact, x: float | None = None
 ) -> BodiesAtRest:
-    """Points and flexibility of a wheel that stands on the track.
+    """Points and flexibility of a wheel that stands on the track at x [m], by default in mid-bay.
 
-    Parameters
-    ----------
-    track : MeshedTrack
-    contact : SurfaceContact
-        Its wheel with all its static flexibility; modes do not count.
-    x : float, optional
-        Position on the track in m; the middle of its middle bay when not given.
-
-    Returns
-    -------
-    BodiesAtRest
+    The wheel has all its static flexibility; its modes do not count.
     """
     points, x = contact.points, track.track.middle if x is None else x
     under = RailSurface(track, points).under(x)
@@ -68,7 +57,7 @@ def bodies_at_rest(
 def geometry_press(
     track: MeshedTrack, contact: SurfaceContact, loads: Array, x: float | None = None
 ) -> PressCurve:
-    """Static press of the wheel on the rail, measured from the hub to the rail's centre line.
+    """Static press by loads [N] at x, measured from the hub to the rail's centre line.
 
     The deflection of the rail as a beam is taken out with the centre line, so what is left is
     the local flexibility that a point model's contact spring stands for; its tangent at the
@@ -79,16 +68,6 @@ def geometry_press(
     track : MeshedTrack
         Any supported track with the rail. In the middle of a bay its supports hardly matter;
         over a sleeper the compression of the web by the pad adds 3 % to the approach.
-    contact : SurfaceContact
-        With an elastic or rigid wheel.
-    loads : ndarray (k,)
-        In N.
-    x : float, optional
-        Position on the track in m; the middle of its middle bay when not given.
-
-    Returns
-    -------
-    PressCurve
     """
     at = bodies_at_rest(track, contact, x)
     return press_curve(at.points, at.flexibility, loads, contact.enforcement, at.centre_line)

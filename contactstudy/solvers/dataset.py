@@ -44,15 +44,12 @@ def history_dataset(
 
     Parameters
     ----------
-    journey : Journey
     positions : ndarray
         (n_times, n_wheels) X of the wheels [m].
     histories : mapping
         Name in `SIGNALS` to (n_times,) or (n_times, n_wheels).
     station_displacement : ndarray, optional
         (n_times, n_stations) rail displacement at the journey's stations [m].
-    attrs : mapping, optional
-        What describes the run; lists and plain values only.
 
     Returns
     -------

@@ -22,15 +22,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Frames:
-    """Keeps pressure and contact status at the steps nearest to given positions.
+    """Keeps pressure and contact status at the steps nearest to positions of the wheel [m].
 
     Surface contact only; the dataset gets `frame_pressure` and `frame_contact_status`
     (frame, point).
-
-    Parameters
-    ----------
-    at : tuple of float
-        Positions of the wheel in m.
     """
 
     at: tuple[float, ...]

@@ -27,17 +27,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Instants:
-    """Keeps the contact at the steps nearest to given positions.
+    """Keeps the contact at the steps nearest to positions of the wheel [m].
 
     Surface contact only; the dataset gets `pressure`, `gap` and `contact_status`
     (instant, point) at the tread nodes, the largest stresses below the patch, `von_mises` and
     `maximum_shear` (instant) with `_depth`, `_x` and `_y`, and the deformed sections of wheel
     and rail at the first instant.
-
-    Parameters
-    ----------
-    at : tuple of float
-        Positions of the wheel in m.
     """
 
     at: tuple[float, ...]

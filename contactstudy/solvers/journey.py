@@ -92,13 +92,7 @@ class Journey(Parameters):
     ) -> list[str]:
         """Everything that makes this journey impossible on that track with that vehicle.
 
-        Parameters
-        ----------
-        track : Track
-        vehicle : Vehicle, optional
-            All its wheels must stay on the track; one wheel without it.
-        key : callable, optional
-            From a field to how the caller knows it.
+        Without a vehicle it is one wheel; `key` gives the caller's name of a field.
         """
         key = key or (lambda name: f"Journey.{name}")
         where = f"must lie on the track, 0 to {track.length:g} m"

@@ -45,12 +45,7 @@ class Observer(Protocol):
 
 @dataclass(frozen=True)
 class EachState:
-    """Calls a function with every state.
-
-    Parameters
-    ----------
-    function : callable
-    """
+    """Calls a function with every state."""
 
     function: Callable[[State], object]
 
@@ -65,13 +60,7 @@ class EachState:
 
 @dataclass(frozen=True)
 class ReportProgress:
-    """Reports how far a run is, now and then.
-
-    Parameters
-    ----------
-    report : callable
-        Called with (steps done, steps).
-    """
+    """Reports how far a run is, as (steps done, steps), now and then."""
 
     report: Callable[[int, int], object]
 

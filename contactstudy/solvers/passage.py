@@ -25,10 +25,8 @@ class Passage(Generic[T]):
     ----------
     track : DiscreteTrack
         Static loads act in its direction "Z" only.
-    vehicle : Vehicle
     irregularity : Profile
         r(X), positive raises the running surface, before it is faded in.
-    journey : Journey
     """
 
     track: T

@@ -61,11 +61,8 @@ def node_fields(
 
     Parameters
     ----------
-    points : ContactPoints
     forces, gaps : sequence of ndarray (nx*ny,)
         Normal forces in N and gaps in m at the contact points, one entry an instant.
-    dim : str
-        Name of the dimension along the sequence.
 
     Returns
     -------
@@ -93,16 +90,9 @@ def node_fields(
 
 
 def pressure_below(x: Array, y: Array, nodal: Array, symmetric: bool) -> SurfacePressure:
-    """Pressure on the whole patch, laid out flat, from values at tread nodes.
+    """Pressure on the whole patch, laid out flat, from values (mx*my,) [Pa] at tread nodes.
 
-    Parameters
-    ----------
-    x, y : ndarray (mx,), (my,)
-        Grid lines in m.
-    nodal : ndarray (mx*my,)
-        Pressure in Pa.
-    symmetric : bool
-        Only y >= 0 is modelled; the other half is put back.
+    Of a symmetric model only y >= 0 is given; the other half is put back.
     """
     grid = np.asarray(nodal).reshape(len(x), len(y))
     if symmetric:
@@ -111,14 +101,7 @@ def pressure_below(x: Array, y: Array, nodal: Array, symmetric: bool) -> Surface
 
 
 def instant_pressure(run: xr.Dataset, instant: int) -> SurfacePressure:
-    """Pressure on the whole patch of a run at one of its instants, for the stresses below it.
-
-    Parameters
-    ----------
-    run : xarray.Dataset
-        With `pressure` (instant, point) on a grid of tread nodes.
-    instant : int
-    """
+    """Pressure on the whole patch of a run with `pressure` at one of its instants."""
     x, y = (np.unique(np.asarray(run[name].values)) for name in ("point_x", "point_y"))
     nodal = np.asarray(run["pressure"].transpose("instant", "point").values)[instant]
     symmetric = bool(run["point_y"].attrs.get("symmetric", y[0] >= -1e-9))
@@ -128,19 +111,11 @@ def instant_pressure(run: xr.Dataset, instant: int) -> SurfacePressure:
 def stress_variables(
     points: ContactPoints, pressure: Array, poisson_ratio: float, dim: str
 ) -> dict[str, xr.Variable]:
-    """Largest stresses below the patch and where they are.
+    """Largest stresses below the patch and where they are, for nodal pressures (k, nodes) [Pa].
 
     They are those of an elastic half-space under the pressure of the nodes, see
     `contactstudy.halfspace.subsurface`: the stresses of bending and support are left out. The
     position across the rail is counted along its surface.
-
-    Parameters
-    ----------
-    points : ContactPoints
-    pressure : ndarray (k, nodes)
-        In Pa.
-    poisson_ratio : float
-    dim : str
 
     Returns
     -------

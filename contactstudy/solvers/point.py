@@ -48,11 +48,8 @@ def point_contact(
         `SolidTrack`. A `Track` gets the paper's beam, `BeamTrack(track)`. In the lateral
         direction (`BeamTrack(track, direction="Y")`) there is no static load and the contact
         holds in tension.
-    vehicle : Vehicle
     irregularity : Profile
         r(X), positive raises the running surface. It is faded in from each wheel's start.
-    journey : Journey
-    law : LinearSpring, RigidContact, HertzSpring or MovingForce
     observers : sequence of Observer
         Watch the run, such as `solvers.observers.ReportProgress`.
     integrator : Integrator, optional

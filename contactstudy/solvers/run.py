@@ -26,19 +26,7 @@ def run_through(
 ) -> xr.Dataset:
     """Start from static equilibrium and step through a passage.
 
-    Parameters
-    ----------
-    passage : Passage
-    coupling : Coupling
-        Contact at all positions of the journey.
-    integrator : Integrator
-    observers : sequence of Observer
-    attrs : mapping, optional
-        Describes the run; what is known here (dofs, steps, times ...) is added.
-
-    Returns
-    -------
-    xarray.Dataset
+    The dataset gets the attributes given and what is known here (dofs, steps, times ...).
     """
     import xarray as xr
 

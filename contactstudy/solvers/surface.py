@@ -44,20 +44,14 @@ def surface_contact(
     ----------
     track : MeshedTrack
         Discretised track with a solid rail: a `SolidTrack` or an `UnreducedTrack`.
-    contact : SurfaceContact
-        The wheel, its place on the rail, and how contact is enforced.
     vehicle : Vehicle
         With one wheel.
     irregularity : Profile
         r(X), positive raises the running surface, uniform across the rail; faded in from the
         wheel's start. It is evaluated at every contact point's own X.
-    journey : Journey
-        Where, how fast, which steps.
     observers : sequence of Observer
         Watch the run, and may add to its dataset: `solvers.observers.ReportProgress`,
         `solvers.instants.Instants`, `solvers.frames.Frames`.
-    integrator : Integrator, optional
-        Average acceleration when not given.
 
     Returns
     -------
@@ -113,14 +107,7 @@ def surface_contact(
 
 
 def surface_coupling(passage: Passage[MeshedTrack], contact: SurfaceContact) -> SurfaceCoupling:
-    """Join the contact points of a wheel to all positions of a passage.
-
-    Parameters
-    ----------
-    passage : Passage
-        Of the vehicle with the modes of this wheel, see `SurfaceContact.on`.
-    contact : SurfaceContact
-    """
+    """Join a wheel's contact points to all positions of a passage, its modes in the vehicle."""
     positions, profile = passage.positions, passage.faded(0)
     return SurfaceCoupling(
         passage.track,

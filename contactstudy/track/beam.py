@@ -23,21 +23,10 @@ class BeamTrack(AssembledTrack, Parameters):
 
     Parameters
     ----------
-    track : Track
-    theory : {"euler", "timoshenko"}
-        Timoshenko elements have shear flexibility, their own shape functions and rotary inertia.
-    elements_per_bay : int
     element_compliance : bool
         Whether the deflection of loaded elements themselves counts, which the nodal shape
         functions leave out: `local_compliance` under the wheel, and inner dofs for what pads
         and inertia do (see `contactstudy.track.inner`). False is the paper's scheme.
-    direction : {"Z", "Y"}
-        Vertical or lateral bending, with the supports' values for that direction.
-
-    Raises
-    ------
-    InputError
-        For an unknown theory or direction, or fewer than one element a bay.
     """
 
     track: Track
@@ -69,21 +58,7 @@ class BeamTrack(AssembledTrack, Parameters):
         )
 
     def rail_rows(self, x: Array) -> tuple[IntArray, Array]:
-        """Rows that give the rail's deflection at X.
-
-        Parameters
-        ----------
-        x : ndarray
-            (m,) positions on the track [m].
-
-        Returns
-        -------
-        dofs : ndarray
-            (m, k) int64, k = 4 without element compliance.
-        weights : ndarray
-            (m, k); u(x) = sum(weights * u[dofs]). A dof that an end condition holds has
-            weight 0.
-        """
+        """See `DiscreteTrack`; k = 4 without element compliance."""
         element, xi = self._locate(x)
         nodal = 2 * element[:, None] + np.arange(4)
         weights = self.element.deflection_shapes(xi)

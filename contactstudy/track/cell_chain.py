@@ -21,12 +21,7 @@ MOTIONS: tuple[PadMotion, ...] = ("Z", "Y", "roll")
 class CellChain:
     """The rail alone. Bare dofs: interface, internal modes, interface, ... along the rail.
 
-    Parameters
-    ----------
-    cell : RailCell
-    n_cells : int
-    ends : {"clamped", "pinned", "free"}
-        Condition at both ends; what it holds is left out of the matrices.
+    What the ends hold is left out of the matrices.
     """
 
     cell: RailCell

@@ -39,7 +39,10 @@ class DiscreteTrack(Protocol):
         """Vertical or lateral displacements of the rail."""
 
     def rail_rows(self, x: Array) -> tuple[IntArray, Array]:
-        """Dofs and weights (m, k) of the displacement of the rail's centre line at X (m,)."""
+        """Dofs and weights (m, k) of the displacement of the rail's centre line at X (m,) [m].
+
+        u(x) = sum(weights * u[dofs]); a dof that an end condition holds has weight 0.
+        """
 
     def local_compliance(self, x: Array) -> Array:
         """Compliance under the load that the dofs leave out, (m,) [m/N]."""

@@ -23,7 +23,6 @@ class InnerShape:
 
     Parameters
     ----------
-    element : BeamElement
     start, stop : float
         The loaded part, 0 <= start < stop <= element.length [m].
     footprint : float

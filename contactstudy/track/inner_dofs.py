@@ -43,9 +43,6 @@ class InnerDofs:
     ----------
     elements, pads : ndarray
         (nb,) element and pad (or `NO_PAD`) of each dof.
-    shapes : tuple of InnerShape
-        (nb,).
-    n_elements : int
     """
 
     elements: IntArray

@@ -129,15 +129,8 @@ Support = DiscreteSupports | WinklerFoundation | None
 class Track(Parameters):
     """One rail on its supports, from X = 0 to X = length.
 
-    Parameters
-    ----------
-    rail : Rail
-    support : DiscreteSupports, WinklerFoundation or None
-        None: nothing but the ends carries the rail (a beam).
-    length : float
-        [m]; with discrete supports a whole number of spacings.
-    ends : {"clamped", "pinned", "free"}
-        Condition of the rail at both ends.
+    The length is a whole number of spacings of discrete supports. Without support nothing but the
+    ends carries the rail (a beam).
     """
 
     rail: Annotated[

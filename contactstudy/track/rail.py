@@ -38,11 +38,6 @@ class Rail(Parameters):
     section : SectionProperties
         Integrals of the cross-section; take those of the very mesh that the solid rail uses
         when beam and solid are to share a track.
-    youngs_modulus : float
-        E [N/m^2].
-    poisson_ratio : float
-    density : float
-        [kg/m^3].
     profile_name : str, optional
         Name of the profile that the section comes from; the solid rail needs one.
     """

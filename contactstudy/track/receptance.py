@@ -12,27 +12,16 @@ from contactstudy.track.discrete import DiscreteTrack
 def receptance(
     track: DiscreteTrack, x: float, frequency: Array, at: float | None = None
 ) -> np.ndarray:
-    """Displacement per harmonic unit force on the rail, exp(+i omega t).
+    """Displacement per harmonic unit force on the rail at x [m], exp(+i omega t), (nf,) [m/N].
 
     (K + i omega C - omega^2 M) u = N(x)^T; the receptance is N(at) u. Multiply by i omega for
     the mobility.
 
     Parameters
     ----------
-    track : DiscreteTrack
-        Any discretised track; only its dofs and `local_compliance` count.
-    x : float
-        Position of the force [m].
-    frequency : ndarray
-        (nf,) [Hz].
     at : float, optional
         Where the displacement is taken [m]; under the force (with the local compliance) when
         not given.
-
-    Returns
-    -------
-    ndarray
-        (nf,) complex [m/N].
 
     Raises
     ------

@@ -33,15 +33,7 @@ def solid_rail(recipe: CellRecipe) -> Rail:
 
 
 def meshed_track(recipe: CellRecipe | None = None, **of_track: Any) -> "SolidTrack":
-    """A track on its meshed rail, whose cell is condensed or taken from the cache.
-
-    Parameters
-    ----------
-    recipe : CellRecipe, optional
-        Of the rail's cell; the default one without it.
-    **of_track
-        Parameters of a `Track` but for its rail.
-    """
+    """A track of the parameters of `Track` on a meshed rail, its cell condensed or from the cache."""
     recipe = recipe or CellRecipe()
     return SolidTrack(Track(rail=solid_rail(recipe), **of_track), cached(rail_body(recipe)))
 
@@ -54,7 +46,6 @@ class SolidTrack(AssembledMesh):
     ----------
     track : Track
         Its rail must be the one that the cell's recipe makes, see `solid_rail`.
-    cell : RailCell
     mean_phase : bool
         Take the residual flexibility of the running surface as the mean over the phases of the
         mesh under the wheel, see `contact.residual`. False: exactly that of the mesh, with its
@@ -117,21 +108,7 @@ class SolidTrack(AssembledMesh):
         return round(self.track.length / self.recipe.length)
 
     def rail_rows(self, x: Array) -> tuple[IntArray, Array]:
-        """Rows that give the deflection of the rail's centre line at X.
-
-        Parameters
-        ----------
-        x : ndarray
-            (m,) positions on the track [m].
-
-        Returns
-        -------
-        dofs : ndarray
-            (m, nd) int64.
-        weights : ndarray
-            (m, nd); u(x) = sum(weights * u[dofs]). A dof that an end condition holds has
-            weight 0.
-        """
+        """See `DiscreteTrack`."""
         cell, slices, t = self._chain.locate(np.atleast_1d(np.asarray(x, dtype=float)))
         rows = self.cell.centre_map[:, 0]
         weights = (1 - t)[:, None] * rows[slices] + t[:, None] * rows[slices + 1]
@@ -153,17 +130,6 @@ class SolidTrack(AssembledMesh):
 
     def stretch(self, x: float, half_length: float) -> RailStretch:
         """Running surface around X, as the contact sees it.
-
-        Parameters
-        ----------
-        x : float
-            Position of the wheel on the track [m].
-        half_length : float
-            The stretch covers at least ``x - half_length`` to ``x + half_length`` [m].
-
-        Returns
-        -------
-        RailStretch
 
         Raises
         ------
@@ -194,17 +160,7 @@ class SolidTrack(AssembledMesh):
         )
 
     def section(self, x: float, half_length: float) -> SectionResponse:
-        """Displacement of the rail's section at the interface plane nearest to X.
-
-        Parameters
-        ----------
-        x, half_length : float
-            As for `stretch`, whose nodal forces the residual belongs to.
-
-        Returns
-        -------
-        SectionResponse
-        """
+        """Displacement of the rail's section at the interface plane nearest to X."""
         pair, _, planes = self._planes(x, half_length)
         dofs, held = self._pair_dofs(pair)
         middle = slice(self._chain.step, self._chain.step + self.recipe.interface_modes)

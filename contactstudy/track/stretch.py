@@ -34,8 +34,6 @@ class RailStretch:
         Positions on the track [m].
     y, arc : ndarray (ny,)
         Lateral positions in the rail's axes, and their arc lengths from the crown [m].
-    centre_dofs : ndarray (nc,)
-        Dofs of the track for `centre_map`.
     centre_map : ndarray (nm, nc)
         Motion of the rail's centre line at the position asked for: vertical displacement [m];
         for a whole section (nm = 3) also lateral displacement [m] and roll [rad].
@@ -87,9 +85,6 @@ class SectionResponse:
         X of the plane [m].
     nodes : ndarray (k, 2)
         y, z [m], z = 0 on top of the rail.
-    quads : ndarray (q, 4)
-    dofs : ndarray (m,)
-        Dofs of the track.
     map : ndarray (k, 2, m)
         Displacement (y, z) of each node.
     residual : ndarray (k, 2, nodes)

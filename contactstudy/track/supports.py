@@ -30,15 +30,7 @@ class PadRow:
 
 @dataclass(frozen=True)
 class SupportedRail:
-    """Matrices of rail and supports in an ordering along the track.
-
-    Parameters
-    ----------
-    mass, damping, stiffness : csr_array
-        (n, n), symmetric.
-    rail_dofs : ndarray
-        (n_rail,) int64, where each dof of the bare rail went.
-    """
+    """Symmetric matrices in an ordering along the track, and where each dof of the rail went."""
 
     mass: sp.csr_array
     damping: sp.csr_array
@@ -64,14 +56,9 @@ def add_supports(
     rail_keys : ndarray
         (n_rail,), position X of each rail dof, by which all dofs are ordered (ties keep the
         given order, support dofs after rail dofs).
-    track : Track
     pads : mapping of {"Z", "Y", "roll"} to sequence of PadRow
         Motions of the foot that the pads resist, one row for each of
         `track.support_positions`; empty when there are none.
-
-    Returns
-    -------
-    SupportedRail
     """
     n_rail = mass.shape[0]
     support = track.support

@@ -30,8 +30,6 @@ class UnreducedTrack(AssembledMesh):
 
     Parameters
     ----------
-    track : Track
-        With clamped ends.
     recipe : CellRecipe
         Mesh; its cell length only sets the length of a slice, as in the condensed track.
 
@@ -73,7 +71,7 @@ class UnreducedTrack(AssembledMesh):
         return round(self.track.length / self.thickness)
 
     def rail_rows(self, x: Array) -> tuple[IntArray, Array]:
-        """Rows of the section's mean deflection at X, as `SolidTrack.rail_rows`."""
+        """See `DiscreteTrack`: the section's mean deflection."""
         index, t = self._locate(np.atleast_1d(np.asarray(x, dtype=float)))
         centre = self._rows.centre[0]
         used = np.flatnonzero(centre)
