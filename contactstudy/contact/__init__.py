@@ -1,5 +1,1 @@
-"""Contact of wheel and rail.
-
-Closed forms (hertz), laws at a point (laws, point), pressure over a patch (points, search, surface,
-residual, coupling), static press (press), first touch of two bodies (touch).
-"""
+"""Contact of wheel and rail: at a point, over a patch, pressed at rest."""

@@ -38,7 +38,7 @@ class PatchForces:
     """
 
     forces: Array
-    active: Mask
+    active: BoolArray
     iterations: int
 
 
@@ -72,7 +72,7 @@ def _solve(M: Array, index: NDArray[np.intp], rhs: Array) -> Array:
 def contact_forces(
     M: Array,
     gap: Array,
-    guess: Mask | None = None,
+    guess: BoolArray | None = None,
     *,
     max_iterations: int = 1000,
     patience: int = 8,
@@ -117,7 +117,7 @@ def contact_forces(
     raise _unsettled(gap, active, forces, max_iterations)
 
 
-def _balance(M: Array, gap: Array, active: Mask) -> tuple[Array, Array]:
+def _balance(M: Array, gap: Array, active: BoolArray) -> tuple[Array, Array]:
     """Forces that close the gaps of the active points, and the gaps then left."""
     forces, index = np.zeros(len(gap)), np.flatnonzero(active)
     if not len(index):
@@ -154,7 +154,7 @@ def _descend(
             forces[leaving], active[leaving] = 0.0, False
 
 
-def _unsettled(gap: Array, active: Mask, forces: Array, limit: int) -> NumericalError:
+def _unsettled(gap: Array, active: BoolArray, forces: Array, limit: int) -> NumericalError:
     return NumericalError(
         f"contact: active set not settled after {limit} linear solves: {len(gap)} points, "
         f"{int(active.sum())} active, least gap {gap.min():.3e} m, sum of forces "
@@ -167,7 +167,7 @@ def press(
     gap: Array,
     normal: Array,
     resultant: float,
-    guess: Mask | None = None,
+    guess: BoolArray | None = None,
     approach: float | None = None,
 ) -> PressedForces:
     """Contact forces and rigid approach for a prescribed resultant.

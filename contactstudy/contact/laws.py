@@ -70,7 +70,7 @@ def point_forces(
     static_loads: Array,
     bilateral: bool = False,
 ) -> Array:
-    """Forces of all wheels that satisfy the law at the end of a step.
+    """Forces lambda (nw,) [N] of all wheels that satisfy the law at the end of a step.
 
     Parameters
     ----------

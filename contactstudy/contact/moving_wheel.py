@@ -48,18 +48,9 @@ class MovingWheel:
         """Of the points relative to the dofs, (n, n) [m/N]."""
         return self.tread @ self.body.flexibility @ self.tread.T
 
-    @cached_property
-    def half_length(self) -> float:
-        """Distance of the outermost points from the wheel's lowest along the rail [m]."""
-        return float(np.abs(self.points.x).max())
-
     def peak_pressure(self, forces: Array) -> float:
         """Largest pressure at a tread node in Pa for forces (n,) at the points in N."""
-        return float((self._tread_T @ forces / self._node_area).max())
-
-    @cached_property
-    def _tread_T(self) -> Array:
-        return self.tread.T
+        return float((self.tread.T @ forces / self._node_area).max())
 
     @cached_property
     def _node_area(self) -> Array:

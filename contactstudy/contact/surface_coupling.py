@@ -19,7 +19,6 @@ import numpy as np
 
 from contactstudy.arrays import Array, BoolArray, IntArray
 from contactstudy.contact.augmented import Enforcement, PointProblem
-from contactstudy.contact.edge import check_edge
 from contactstudy.contact.groups import patch_record
 from contactstudy.contact.moving_wheel import MovingWheel
 from contactstudy.contact.nearby import NearbyColumns
@@ -203,7 +202,7 @@ class AttachedSurface:
             )
             missed = ~chosen & (gap < -1e-12)
             if not missed.any():
-                check_edge(self._coupling.wheel.points, active, self._where(step))
+                self._check_edge(step, active)
                 return PatchState(forces, gap, active, overlap, nodal)
             if np.any(missed & ~allowed):
                 raise NumericalError(
@@ -222,6 +221,21 @@ class AttachedSurface:
         if self._listed is None or self._listed[0] is not facets:
             self._listed = facets, self._coupling.wheel.points.listed(facets)
         return self._listed[1]
+
+    def _check_edge(self, step: int, active: BoolArray) -> None:
+        """Raise if an outermost line of points is in contact, naming the key of the small zone."""
+        points = self._coupling.wheel.points
+        grid = active.reshape(len(points.x), -1)
+        across = grid[:, -1].any() or (not points.symmetric and grid[:, 0].any())
+        if not (across or grid[0].any() or grid[-1].any()):
+            return
+        lines, way = (points.wheel_y, "across") if across else (points.wheel_x, "along")
+        key = "contact_half_width" if across else "contact_half_length"
+        raise NumericalError(
+            f"contact patch reaches the edge of the finely meshed zone {way} the rail at "
+            f"{self._where(step)}: the wheel's zone, {1e3 * lines[0]:.4g} to "
+            f"{1e3 * lines[-1]:.4g} mm, is too small ({key})"
+        )
 
     def _where(self, step: int) -> str:
         return f"step {step}, X = {self._coupling.path.positions[step]:.4f} m"

@@ -105,7 +105,7 @@ class Coupling(Protocol):
 
 @dataclass(frozen=True)
 class State:
-    """All that is known at the end of a step: motion (n,), total load (n,), contact with its state."""
+    """All that is known at the end of a step: time since the start [s], motion, total load (n,)."""
 
     step: int
     time: float

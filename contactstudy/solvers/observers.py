@@ -6,9 +6,10 @@ state of that run, the start included, and may add what it has kept to the datas
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 from contactstudy.dynamics.stepper import Coupling, State
 from contactstudy.solvers.journey import Journey
@@ -33,25 +34,23 @@ class Watch:
         return data
 
 
-class Observer(Protocol):
+class Observer(ABC):
     """Something that can watch runs."""
 
     def problems_on(self, journey: Journey) -> list[str]:
         """Everything that makes watching that journey impossible."""
+        return []
 
+    @abstractmethod
     def watch(self, passage: Passage[DiscreteTrack], coupling: Coupling) -> Watch:
         """Watch a run."""
 
 
 @dataclass(frozen=True)
-class EachState:
+class EachState(Observer):
     """Calls a function with every state."""
 
     function: Callable[[State], object]
-
-    def problems_on(self, journey: Journey) -> list[str]:
-        """None."""
-        return []
 
     def watch(self, passage: Passage[DiscreteTrack], coupling: Coupling) -> Watch:
         """See `Observer`."""
@@ -59,14 +58,10 @@ class EachState:
 
 
 @dataclass(frozen=True)
-class ReportProgress:
+class ReportProgress(Observer):
     """Reports how far a run is, as (steps done, steps), now and then."""
 
     report: Callable[[int, int], object]
-
-    def problems_on(self, journey: Journey) -> list[str]:
-        """None."""
-        return []
 
     def watch(self, passage: Passage[DiscreteTrack], coupling: Coupling) -> Watch:
         """See `Observer`."""

@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 import numpy as np
 
 from contactstudy.arrays import Array, IntArray
-from contactstudy.track.discrete import AssembledTrack
+from contactstudy.track.discrete import AssembledTrack, pieces_at, without_held
 from contactstudy.track.hermite import BeamElement
 from contactstudy.track.inner_dofs import InnerDofs, pad_parts
 from contactstudy.track.model import Direction, Track, WinklerFoundation
@@ -49,30 +49,23 @@ class BeamTrack(AssembledTrack, Parameters):
         bending, mass = rail.bending_stiffness(self.direction), rail.mass_per_length
         if self.theory == "euler":
             return BeamElement(length, bending, mass)
-        return BeamElement(
-            length,
-            bending,
-            mass,
-            rail.shear_stiffness(self.direction),
-            rail.rotary_inertia(self.direction),
-        )
+        shear, rotary = rail.shear_stiffness(self.direction), rail.rotary_inertia(self.direction)
+        return BeamElement(length, bending, mass, shear, rotary)
 
     def rail_rows(self, x: Array) -> tuple[IntArray, Array]:
         """See `DiscreteTrack`; k = 4 without element compliance."""
-        element, xi = self._locate(x)
+        element, xi = pieces_at(x, self.element.length, self.n_elements)
         nodal = 2 * element[:, None] + np.arange(4)
         weights = self.element.deflection_shapes(xi)
         if self._inner is not None:
             extra, values = self._inner.values(element, xi)
             extra = np.where(extra < 0, -1, 2 * self.n_elements + 2 + extra)
             nodal, weights = np.hstack((nodal, extra)), np.hstack((weights, values))
-        dofs = np.where(nodal < 0, -1, self._final_dof[nodal])
-        held = dofs < 0
-        return np.where(held, 0, dofs), np.where(held, 0.0, weights)
+        return without_held(np.where(nodal < 0, -1, self._final_dof[nodal]), weights)
 
     def local_compliance(self, x: Array) -> Array:
         """Compliance at X that no dof has, (m,) [m/N]; 0 when the option is off."""
-        element, xi = self._locate(x)
+        element, xi = pieces_at(x, self.element.length, self.n_elements)
         if not self.element_compliance:
             return np.zeros_like(xi)
         compliance = self.element.clamped_compliance(xi)
@@ -83,12 +76,6 @@ class BeamTrack(AssembledTrack, Parameters):
     def top_load_compliance(self, x: Array) -> Array:
         """Zero: a beam's section moves as one."""
         return np.zeros(np.shape(x))
-
-    def _locate(self, x: Array) -> tuple[IntArray, Array]:
-        """Element index and local coordinate in 0..1 of each X."""
-        scaled = np.atleast_1d(np.asarray(x, dtype=float)) / self.element.length
-        element = np.clip(np.floor(scaled).astype(np.int64), 0, self.n_elements - 1)
-        return element, scaled - element
 
     @cached_property
     def _inner(self) -> InnerDofs | None:

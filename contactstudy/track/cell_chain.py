@@ -8,6 +8,7 @@ import scipy.sparse as sp
 
 from contactstudy.arrays import Array, IntArray
 from contactstudy.solids.cell import RailCell
+from contactstudy.track.discrete import pieces_at
 from contactstudy.track.model import Ends
 from contactstudy.track.supports import PadMotion, PadRow
 
@@ -81,9 +82,8 @@ class CellChain:
     def locate(self, x: Array) -> tuple[IntArray, IntArray, Array]:
         """Cell, slice in it and fraction of the slice of each X (m,) [m]."""
         ns = self.cell.recipe.n_slices
-        scaled = x / self.thickness
-        index = np.clip(np.floor(scaled).astype(np.int64), 0, self.n_cells * ns - 1)
-        return index // ns, index % ns, scaled - index
+        index, t = pieces_at(x, self.thickness, self.n_cells * ns)
+        return index // ns, index % ns, t
 
     def matrix(self, of_cell: Array) -> sp.csr_array:
         """Sum of equal cell matrices (nd, nd) over the chain, on the free dofs."""

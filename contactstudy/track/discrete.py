@@ -3,6 +3,7 @@
 from abc import ABC, abstractmethod
 from typing import Protocol
 
+import numpy as np
 import scipy.sparse as sp
 
 from contactstudy.arrays import Array, IntArray
@@ -53,6 +54,19 @@ class DiscreteTrack(Protocol):
         Against the load on the centre line, and with a contact spring that is the tangent of
         the press in mid-bay, see `track.top_load`; a beam has none.
         """
+
+
+def pieces_at(x: Array, length: float, n: int) -> tuple[IntArray, Array]:
+    """Piece of a chain of n equal ones, and place in it from 0 to 1, of each X (m,)."""
+    scaled = np.atleast_1d(np.asarray(x, dtype=float)) / length
+    piece = np.clip(np.floor(scaled).astype(np.int64), 0, n - 1)
+    return piece, scaled - piece
+
+
+def without_held(dofs: IntArray, weights: Array) -> tuple[IntArray, Array]:
+    """Rows whose dofs -1, held by an end condition, are named 0 with weight 0."""
+    held = dofs < 0
+    return np.where(held, 0, dofs), np.where(held, 0.0, weights)
 
 
 def not_discrete(track: object) -> list[str]:

@@ -24,10 +24,6 @@ class MeshedTrack(DiscreteTrack, Protocol):
         """Slices after which the mean residual flexibility repeats; None where no mean is taken."""
 
     @property
-    def surface_y(self) -> Array:
-        """Lateral positions (ny,) of the running-surface nodes [m]."""
-
-    @property
     def surface_arc(self) -> Array:
         """Arc lengths (ny,) of the running-surface nodes from the crown [m]."""
 

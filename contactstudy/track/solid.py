@@ -14,7 +14,8 @@ from contactstudy.solids.cell import RailCell, section_mesh_of
 from contactstudy.solids.pair import CellPair, cell_pair
 from contactstudy.solids.recipe import CellRecipe
 from contactstudy.track.cell_chain import MOTIONS, CellChain
-from contactstudy.track.model import DiscreteSupports, Rail, Track, WinklerFoundation
+from contactstudy.track.discrete import without_held
+from contactstudy.track.model import DiscreteSupports, Rail, Track, WinklerFoundation, whole
 from contactstudy.track.stretch import RailStretch, SectionResponse
 from contactstudy.track.supports import SupportedRail, add_supports
 from contactstudy.track.top_load import AssembledMesh
@@ -33,7 +34,7 @@ def solid_rail(recipe: CellRecipe) -> Rail:
 
 
 def meshed_track(recipe: CellRecipe | None = None, **of_track: Any) -> "SolidTrack":
-    """A track of the parameters of `Track` on a meshed rail, its cell condensed or from the cache."""
+    """A `Track` with these parameters on a meshed rail, its cell condensed or from the cache."""
     recipe = recipe or CellRecipe()
     return SolidTrack(Track(rail=solid_rail(recipe), **of_track), cached(rail_body(recipe)))
 
@@ -67,7 +68,7 @@ class SolidTrack(AssembledMesh):
         discrete = isinstance(self.track.support, DiscreteSupports)
         what, length = ("bay", self.track.bay_length) if discrete else ("track", self.track.length)
         ratio = length / recipe.length
-        if abs(ratio - round(ratio)) > 1e-9 * ratio:
+        if not whole(ratio):
             problems.append(
                 f"cell length = {recipe.length} m: must divide the {what} of {length} m"
             )
@@ -93,11 +94,6 @@ class SolidTrack(AssembledMesh):
         return self.cell.recipe
 
     @property
-    def surface_y(self) -> Array:
-        """Lateral positions of the running-surface nodes [m]."""
-        return self.cell.surface_y
-
-    @property
     def surface_arc(self) -> Array:
         """Arc lengths of the running-surface nodes from the crown [m]."""
         return self.cell.surface_arc
@@ -109,17 +105,19 @@ class SolidTrack(AssembledMesh):
 
     def rail_rows(self, x: Array) -> tuple[IntArray, Array]:
         """See `DiscreteTrack`."""
-        cell, slices, t = self._chain.locate(np.atleast_1d(np.asarray(x, dtype=float)))
+        cell, slices, t = self._chain.locate(x)
         rows = self.cell.centre_map[:, 0]
         weights = (1 - t)[:, None] * rows[slices] + t[:, None] * rows[slices + 1]
-        return self._placed(cell * self._chain.step, weights)
+        first = cell * self._chain.step
+        dofs = self._dof_of_bare[first[:, None] + np.arange(weights.shape[1])]
+        return without_held(dofs, weights)
 
     def local_compliance(self, x: Array) -> Array:
         """What the condensed cells leave out of the deflection under a load at X, (m,) [m/N].
 
         For a load spread over the section, which is what a point law on this rail applies.
         """
-        _, slices, t = self._chain.locate(np.atleast_1d(np.asarray(x, dtype=float)))
+        _, slices, t = self._chain.locate(x)
         own, following = self.cell.centre_compliance
         # the load is shared by the planes on both sides, and so is the deflection
         return np.asarray(
@@ -190,20 +188,9 @@ class SolidTrack(AssembledMesh):
         return pair, local, slice(first, stop)
 
     @property
-    def thickness(self) -> float:
-        """Length of a slice of the mesh [m]."""
-        return self.recipe.length / self.recipe.n_slices
-
-    @property
     def residual_period(self) -> int | None:
         """Slices after which the mean residual flexibility repeats; None where no mean is taken."""
         return self.recipe.n_slices if self.mean_phase else None
-
-    def _placed(self, first: IntArray, weights: Array) -> tuple[IntArray, Array]:
-        """Weights on the bare dofs from `first` on, as final dofs; held ones get weight 0."""
-        dofs = self._dof_of_bare[first[:, None] + np.arange(weights.shape[1])]
-        held = dofs < 0
-        return np.where(held, 0, dofs), np.where(held, 0.0, weights)
 
     def _pair_dofs(self, pair: int) -> tuple[IntArray, BoolArray]:
         first = pair * self._chain.step

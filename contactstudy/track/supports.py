@@ -155,9 +155,9 @@ def _layer(
     n_seats = len(positions)
     vertical = direction == "Z"
     sleepers = np.full(n_seats, support.sleeper_mass)
+    k = layer.stiffness if vertical else layer.lateral_stiffness
+    c = layer.damping if vertical else layer.lateral_damping
     if not isinstance(layer, Slab):
-        k = layer.stiffness if vertical else layer.lateral_stiffness
-        c = layer.damping if vertical else layer.lateral_damping
         eye = sp.eye_array(n_seats, format="csr")
         return np.arange(n_seats), positions, (sp.diags_array(sleepers).tocsr(), c * eye, k * eye)
     element = BeamElement(
@@ -165,8 +165,6 @@ def _layer(
         layer.bending_stiffness if vertical else layer.lateral_bending_stiffness,
         layer.mass_per_length,
     )
-    k = layer.stiffness if vertical else layer.lateral_stiffness
-    c = layer.damping if vertical else layer.lateral_damping
     bed = element.foundation()
     seats = 2 * np.arange(n_seats)
     lumped = np.zeros(2 * n_seats)

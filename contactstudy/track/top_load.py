@@ -41,6 +41,12 @@ class AssembledMesh(AssembledTrack):
         """Point contact on a meshed rail is vertical."""
         return "Z"
 
+    @property
+    def thickness(self) -> float:
+        """Length of a slice of the mesh [m]."""
+        recipe = cast(MeshedTrack, self).recipe
+        return recipe.length / recipe.n_slices
+
     def top_load_compliance(self, x: Array) -> Array:
         """See `DiscreteTrack`."""
         return self._top_load(x)

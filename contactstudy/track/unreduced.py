@@ -18,7 +18,8 @@ from contactstudy.solids.recipe import CellRecipe
 from contactstudy.solids.section_mesh import SectionMesh
 from contactstudy.solids.section_rows import SectionRows
 from contactstudy.track.cell_chain import MOTIONS
-from contactstudy.track.model import Track, WinklerFoundation
+from contactstudy.track.discrete import pieces_at, without_held
+from contactstudy.track.model import Track, WinklerFoundation, whole
 from contactstudy.track.stretch import RailStretch, SectionResponse
 from contactstudy.track.supports import PadRow, SupportedRail, add_supports
 from contactstudy.track.top_load import AssembledMesh
@@ -46,19 +47,13 @@ class UnreducedTrack(AssembledMesh):
         problems = []
         if self.track.ends != "clamped":
             problems.append(f"track ends = {self.track.ends!r}: must be 'clamped' here")
-        cells = self.track.length / self.recipe.length
-        if abs(cells - round(cells)) > 1e-9 * cells:
+        if not whole(self.track.length / self.recipe.length):
             problems.append(
                 f"cell length = {self.recipe.length} m: must divide the track of "
                 f"{self.track.length} m"
             )
         if problems:
             raise InputError(problems)
-
-    @property
-    def thickness(self) -> float:
-        """Length of a slice of the mesh [m]."""
-        return self.recipe.length / self.recipe.n_slices
 
     @property
     def residual_period(self) -> int | None:
@@ -72,12 +67,12 @@ class UnreducedTrack(AssembledMesh):
 
     def rail_rows(self, x: Array) -> tuple[IntArray, Array]:
         """See `DiscreteTrack`: the section's mean deflection."""
-        index, t = self._locate(np.atleast_1d(np.asarray(x, dtype=float)))
+        index, t = self._locate(x)
         centre = self._rows.centre[0]
         used = np.flatnonzero(centre)
         dofs = self._place[index[:, None] * self._n + np.r_[used, self._n + used]]
         weights = np.hstack([(1 - t)[:, None] * centre[used], t[:, None] * centre[used]])
-        return np.where(dofs < 0, 0, dofs), np.where(dofs < 0, 0.0, weights)
+        return without_held(dofs, weights)
 
     def local_compliance(self, x: Array) -> Array:
         """Zero, (m,) [m/N]: no dof of the mesh is left out."""
@@ -106,7 +101,7 @@ class UnreducedTrack(AssembledMesh):
             residual=np.zeros((len(rows),) * 2),
             local=None,
             x=np.asarray(h * planes, dtype=float),
-            y=self.surface_y,
+            y=self._rows.surface_y,
             arc=self._rows.surface_arc,
             centre_dofs=self._place[np.r_[at * n + mean_dofs, (at + 1) * n + mean_dofs]],
             centre_map=np.hstack([(1 - t) * centre, t * centre]),
@@ -130,11 +125,6 @@ class UnreducedTrack(AssembledMesh):
         )
 
     @property
-    def surface_y(self) -> Array:
-        """Lateral positions of the running-surface nodes [m]."""
-        return self._rows.surface_y
-
-    @property
     def surface_arc(self) -> Array:
         """Arc lengths of the running-surface nodes from the crown [m]."""
         return self._rows.surface_arc
@@ -153,9 +143,7 @@ class UnreducedTrack(AssembledMesh):
         return len(self._rows.weights)
 
     def _locate(self, x: Array) -> tuple[IntArray, Array]:
-        scaled = x / self.thickness
-        index = np.clip(np.floor(scaled).astype(np.int64), 0, self.n_slices - 1)
-        return index, scaled - index
+        return pieces_at(x, self.thickness, self.n_slices)
 
     @cached_property
     def _place(self) -> IntArray:
