@@ -11,7 +11,7 @@ from contactstudy.arrays import IntArray
 from contactstudy.contact.surface_coupling import SurfaceCoupling
 from contactstudy.dynamics.stepper import Coupling, State
 from contactstudy.solvers.journey import Journey
-from contactstudy.solvers.observers import Watch
+from contactstudy.solvers.observers import Observer, Watch
 from contactstudy.solvers.passage import Passage
 from contactstudy.solvers.patch_fields import node_coordinates, node_fields, surface_of
 from contactstudy.track.discrete import DiscreteTrack
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Frames:
+class Frames(Observer):
     """Keeps pressure and contact status at the steps nearest to positions of the wheel [m].
 
     Surface contact only; the dataset gets `frame_pressure` and `frame_contact_status`

@@ -11,7 +11,7 @@ from contactstudy.arrays import Array, IntArray
 from contactstudy.contact.surface_coupling import PatchState, SurfaceCoupling
 from contactstudy.dynamics.stepper import Coupling, State
 from contactstudy.solvers.journey import Journey
-from contactstudy.solvers.observers import Watch
+from contactstudy.solvers.observers import Observer, Watch
 from contactstudy.solvers.passage import Passage
 from contactstudy.solvers.patch_fields import (
     node_coordinates,
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Instants:
+class Instants(Observer):
     """Keeps the contact at the steps nearest to positions of the wheel [m].
 
     Surface contact only; the dataset gets `pressure`, `gap` and `contact_status`
