@@ -46,10 +46,7 @@ def modules_of(module: str) -> frozenset[str]:
 def code_digest(module: str | None = None) -> str:
     """Hash of the code that `module` runs, and of the shipped profiles.
 
-    Parameters
-    ----------
-    module : str, optional
-        Its full name. The whole package counts without one, and for a module of somebody else.
+    The whole package counts without one, and for a module of somebody else.
     """
     own = module is not None and module.split(".")[0] == PACKAGE
     if module is not None and own:

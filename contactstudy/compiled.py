@@ -10,12 +10,7 @@ from typing import Any
 class Compiled:
     """A function that numba compiles at its first call, or takes from its cache on disk.
 
-    Parameters
-    ----------
-    function : callable
-        It may call other compiled functions of its module.
-    options : keyword arguments
-        Of ``numba.njit``.
+    It may call other compiled functions of its module; the options are those of ``numba.njit``.
     """
 
     def __init__(self, function: Callable[..., Any], **options: Any) -> None:

@@ -12,10 +12,7 @@ _SHOWN = 10  # faults of one kind that are listed before "and n more"
 def read_rows(path: Path) -> list[tuple[int, list[str]]]:
     """Line number and cells of every line that is not blank.
 
-    Raises
-    ------
-    InputError
-        If the file cannot be read, or is empty.
+    ``InputError`` if the file cannot be read, or is empty.
     """
     try:
         with path.open(newline="", encoding="utf-8-sig") as file:

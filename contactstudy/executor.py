@@ -30,15 +30,13 @@ class Task:
 
     Attributes
     ----------
-    name : str
+    name
         Shown to the user and key of the outcome.
-    function : callable
+    function, arguments
         ``function(*arguments, progress)``, importable by name; `progress` is a `Progress`.
-    arguments : tuple
-        Picklable arguments.
-    after : tuple of str
+    after
         Names of tasks that must have ended (well or not) before this one starts.
-    here : bool
+    here
         May run in the process at hand, as when it takes less time than to start another one and
         little memory. They do so when this holds for all tasks.
     """
@@ -71,8 +69,6 @@ def run_tasks(
     ----------
     tasks : sequence of Task
         With distinct names.
-    jobs : int
-        Tasks at once.
     reporter : Reporter, optional
         Told of the beginning, the progress, the warnings and the end of each task.
     finished : callable, optional

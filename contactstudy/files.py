@@ -20,15 +20,7 @@ _UNFINISHED = ".unfinished-"
 def writing(path: Path) -> Iterator[Path]:
     """Give a temporary path beside `path`; rename it to `path` when the block succeeds.
 
-    Parameters
-    ----------
-    path : Path
-        The final file; its directory is made when absent.
-
-    Raises
-    ------
-    InputError
-        When the directory cannot be made or written.
+    Its directory is made when absent; `InputError` when it cannot be made or written.
     """
     ensure_writable(path.parent)
     handle, name = tempfile.mkstemp(
@@ -47,15 +39,9 @@ def writing(path: Path) -> Iterator[Path]:
 
 
 def remove_unfinished(directory: Path, stem: str = "", older_than: float = 0.0) -> None:
-    """Remove what writers left that were killed.
+    """Remove what writers left that were killed, of files whose name begins with `stem`.
 
-    Parameters
-    ----------
-    directory : Path
-    stem : str
-        Only of files whose name begins so.
-    older_than : float
-        Only what nobody has written to for so many seconds.
+    Only what nobody has written to for `older_than` seconds.
     """
     for path in directory.glob(f"{_UNFINISHED}{stem}*"):
         with contextlib.suppress(FileNotFoundError):  # its writer has ended meanwhile

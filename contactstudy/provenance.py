@@ -42,13 +42,13 @@ def provenance(
 
     Parameters
     ----------
-    seed : int or None
+    seed
         Of the irregularity's phases; None when nothing is random.
-    inputs_hash : str
+    inputs_hash
         Hash of all resolved parameters, input files and the program's code.
-    mesh : dict or None
+    mesh
         Recipe of the solid rail's cell.
-    files : dict of str to str
+    files
         Name of each input file -> SHA-256 of its content.
     """
     return {

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from typing import Protocol
 
 
@@ -42,20 +42,15 @@ class Quiet:
     def end(self, name: str, ok: bool) -> None:
         """Nothing."""
 
-    @contextlib.contextmanager
-    def stage(self, text: str) -> Iterator[None]:
+    def stage(self, text: str) -> contextlib.AbstractContextManager[None]:
         """Nothing."""
-        yield
+        return contextlib.nullcontext()
 
 
 class Bars:
     """A `Reporter` whose tasks share bars: each moves by one as a task of it ends.
 
-    Parameters
-    ----------
-    reporter : Reporter
-    bars : mapping of str to str
-        Task -> its bar; a task that is not there has a bar of its own, in its steps.
+    `bars` names the bar of a task; one that is not there has a bar of its own, in its steps.
     """
 
     def __init__(self, reporter: Reporter, bars: Mapping[str, str]) -> None:

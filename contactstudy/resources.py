@@ -16,20 +16,8 @@ _ROOTS = {
 def resource(*parts: str) -> Path:
     """Path of a file or folder that is shipped with the program.
 
-    Parameters
-    ----------
-    *parts : str
-        Path components; the first is ``"meshes"``, ``"studies"`` or ``"report"``.
-
-    Returns
-    -------
-    Path
-        Existing path, in the installed package or, for an editable install, the source tree.
-
-    Raises
-    ------
-    InputError
-        If the first component is unknown or there is no such file.
+    The first of its parts is ``"meshes"``, ``"studies"`` or ``"report"``; it exists, in the
+    installed package or, for an editable install, the source tree, or is an ``InputError``.
     """
     if not parts or parts[0] not in _ROOTS:
         given = parts[0] if parts else ""

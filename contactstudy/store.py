@@ -35,17 +35,7 @@ class StoreWarning(UserWarning):
 
 @dataclass(frozen=True)
 class Form:
-    """How content is written and read.
-
-    Attributes
-    ----------
-    suffix : str
-        Of the file of content.
-    write : callable
-        ``write(value, path)``.
-    read : callable
-        ``read(path)``; only called with content that has the right checksum.
-    """
+    """How content is written and read; it is only read when it has the right checksum."""
 
     suffix: str
     write: Callable[[Any, Path], None]
@@ -58,11 +48,11 @@ class Kept:
 
     Attributes
     ----------
-    value : object
+    value
         None when there is nothing, or nothing whole.
-    about : mapping
+    about
         What was said about it when it was saved.
-    damage : str
+    damage
         What is wrong with the entry, for the user; "" when nothing is.
     """
 
@@ -72,15 +62,10 @@ class Kept:
 
 
 def store_key(inputs: Any, code_of: Callable[..., Any] | str | None) -> str:
-    """Key of what `inputs` make.
+    """Key of what `inputs`, plain data, make.
 
-    Parameters
-    ----------
-    inputs : object
-        Plain data.
-    code_of : callable, str or None
-        What computes, or its module; see `contactstudy.code.code_digest`. None for what all of
-        the program decides.
+    `code_of` is what computes, or its module (`contactstudy.code.code_digest`); None for what all
+    of the program decides.
     """
     module = code_of if isinstance(code_of, str) or code_of is None else code_of.__module__
     return digest([inputs, code_digest(module), computing_versions()])
@@ -88,15 +73,7 @@ def store_key(inputs: Any, code_of: Callable[..., Any] | str | None) -> str:
 
 @dataclass(frozen=True)
 class Store:
-    """A folder of entries of one form.
-
-    Attributes
-    ----------
-    folder : Path
-        Made when something is saved.
-    form : Form, optional
-        `ARRAYS` or `DATASET`; plain data without one.
-    """
+    """A folder of entries of one form: `ARRAYS`, `DATASET`, or plain data without one."""
 
     folder: Path
     form: Form | None = None
@@ -127,13 +104,7 @@ class Store:
             return Kept(damage=f"{path}: is damaged ({error})")
 
     def save(self, name: str, key: str, value: Any, about: Mapping[str, Any] | None = None) -> Path:
-        """Write an entry; it counts as finished only when this returns.
-
-        Raises
-        ------
-        InputError
-            When the folder cannot be made or written.
-        """
+        """Write an entry; `InputError` when the folder cannot be made or written."""
         remove_unfinished(self.folder, older_than=_ABANDONED)
         path, slip = self.path(name, key), dict[str, Any](about=dict(about or {}))
         if self.form is None:

@@ -32,13 +32,8 @@ _UNIT = re.compile(r"[A-Za-zµμΩ°%0-9*/^·.()\- ]*")
 def to_si(value: Any, unit: str) -> float:
     """Value in the SI unit `unit`.
 
-    Parameters
-    ----------
-    value : str, int or float
-        Text with a unit ("65 MN/m", "75 kN·s/m", "300 km/h"); a bare number, or text that is
-        only a number, is in `unit` already.
-    unit : str
-        SI unit in pint's notation, e.g. "N/m"; "" for a number without dimension.
+    A bare number, or text that is only a number, is in `unit` already, which is written in pint's
+    notation, e.g. "N*s/m"; "" for a number without dimension.
 
     Raises
     ------
@@ -124,17 +119,7 @@ def _allowed(unit: str) -> str:
 
 @dataclass(frozen=True)
 class Limits:
-    """Reads a quantity and holds it to its limits; made for use as a validator.
-
-    Attributes
-    ----------
-    unit : str
-        SI unit, "" for none.
-    above, at_least, at_most : float or None
-        Exclusive lower, inclusive lower and inclusive upper limit in `unit`.
-    whole : bool
-        Whether only whole numbers are allowed.
-    """
+    """Reads a quantity and holds it to its limits in its SI unit; `above` is exclusive."""
 
     unit: str = ""
     above: float | None = None
@@ -159,14 +144,7 @@ class Limits:
 
     def description(self) -> str:
         """What is allowed, e.g. ``above 0 N/m``."""
-        limits = [
-            f"{word} {limit:g}"
-            for word, limit in (
-                ("above", self.above),
-                ("at least", self.at_least),
-                ("at most", self.at_most),
-            )
-            if limit is not None
-        ]
+        words = {"above": self.above, "at least": self.at_least, "at most": self.at_most}
+        limits = [f"{word} {limit:g}" for word, limit in words.items() if limit is not None]
         kind = "a whole number " if self.whole else ("" if limits else "a number ")
         return f"{kind}{' and '.join(limits)} {self.unit}".replace("  ", " ").strip()

@@ -40,13 +40,7 @@ class WorkerDiedError(Exception):
 
 
 class InThisProcess(Executor):
-    """Calls run at once, in the process at hand.
-
-    Parameters
-    ----------
-    receive : callable
-        Called with each `report`.
-    """
+    """Calls run at once, in the process at hand; `receive` is called with each `report`."""
 
     def __init__(self, receive: Receive) -> None:
         self._receive = receive
@@ -69,12 +63,7 @@ class Workers(Executor):
     A worker that dies fails its own call only (`WorkerDiedError`) and is replaced. Workers never
     see Ctrl-C: it is this process that ends them.
 
-    Parameters
-    ----------
-    number : int
-        Workers at once.
-    receive : callable
-        Called with each `report`, in another thread than the caller's.
+    `receive` is called with each `report`, in another thread than the caller's.
     """
 
     def __init__(self, number: int, receive: Receive) -> None:

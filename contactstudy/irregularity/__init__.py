@@ -5,14 +5,12 @@
 
 from contactstudy.irregularity.chosen import Irregularity
 from contactstudy.irregularity.estimate import (
-    SpectralEstimate,
-    ThirdOctaves,
     nominal_centre,
     spectral_estimate,
     third_octave_levels,
 )
-from contactstudy.irregularity.fade import FadedProfile, faded
-from contactstudy.irregularity.measured import MeasuredProfile, check_coverage, measured_profile
+from contactstudy.irregularity.fade import faded
+from contactstudy.irregularity.measured import MeasuredProfile, measured_profile
 from contactstudy.irregularity.profile import (
     HarmonicProfile,
     Profile,
@@ -20,29 +18,18 @@ from contactstudy.irregularity.profile import (
     SmoothRail,
     check_repeat,
 )
-from contactstudy.irregularity.psd import Convention, Spectrum
+from contactstudy.irregularity.psd import Convention
 from contactstudy.irregularity.sample import sample_profile
-from contactstudy.irregularity.spectra import (
-    fra,
-    german,
-    paper_spectrum,
-    spectrum,
-    tbt3352,
-)
+from contactstudy.irregularity.spectra import fra, german, paper_spectrum, spectrum, tbt3352
 
 __all__ = [
     "Convention",
-    "FadedProfile",
     "HarmonicProfile",
     "Irregularity",
     "MeasuredProfile",
     "Profile",
     "RepeatWarning",
     "SmoothRail",
-    "SpectralEstimate",
-    "Spectrum",
-    "ThirdOctaves",
-    "check_coverage",
     "check_repeat",
     "faded",
     "fra",

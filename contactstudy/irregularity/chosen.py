@@ -33,10 +33,7 @@ _CSV = (
 
 @dataclass(frozen=True)
 class Irregularity(Parameters):
-    """Vertical level of the running surface, up positive.
-
-    ``irregularity.profile()`` is the function of X that the solvers take.
-    """
+    """Vertical level of the running surface, up positive; `profile` is what the solvers take."""
 
     spectrum: Annotated[
         Literal[
@@ -60,10 +57,7 @@ class Irregularity(Parameters):
     ] = False
     file: Annotated[str, File(), _MEASURED, "CSV file with the measured level"] = ""
     measured_overlay: Annotated[
-        str,
-        File(),
-        When("spectrum", *NAMES, "smooth"),
-        "CSV file that is drawn beside it",
+        str, File(), When("spectrum", *NAMES, "smooth"), "CSV file that is drawn beside it"
     ] = ""
     x_column: Annotated[str, "column of the CSV file with the position in m"] = "x"
     level_column: Annotated[str, "column with the level, up positive"] = ""
@@ -78,11 +72,8 @@ class Irregularity(Parameters):
         """Ranges that fall, and a measured level without file or column."""
         problems = [
             complaint(key(name), list(pair), f"must increase, lowest first ({unit})")
-            for name, pair, unit in (
-                ("band", self.band, "rad/m"),
-                ("wavelengths", self.wavelengths, "m"),
-            )
-            if not pair[0] < pair[1]
+            for name, unit in (("band", "rad/m"), ("wavelengths", "m"))
+            if not (pair := getattr(self, name))[0] < pair[1]
         ]
         if self.spectrum == "measured" and not self.file:
             problems.append(
@@ -121,35 +112,18 @@ class Irregularity(Parameters):
     ) -> Profile:
         """The profile, as a function of X.
 
-        Parameters
-        ----------
-        direction : {"Z", "Y"}
-            Vertical, or the seed's independent transverse profile.
-        required : tuple of float, optional
-            Range of X that a measured profile has to cover [m].
-
-        Raises
-        ------
-        InputError
-            When a measured file cannot be used or does not cover the range.
+        In direction "Y" it is the seed's independent transverse one. ``InputError`` when a
+        measured file cannot be used or does not cover the required range of X [m].
         """
         if self.spectrum == "smooth":
             return SmoothRail()
         if self.spectrum == "measured":
             return self.measured(self.wavelengths, required)
-        return sample_profile(
-            self.formula(),
-            self.seed,
-            self.terms,
-            self.band,
-            self.jitter,
-            "vertical" if direction == "Z" else "transverse",
-        )
+        which: Literal["vertical", "transverse"] = "vertical" if direction == "Z" else "transverse"
+        return sample_profile(self.formula(), self.seed, self.terms, self.band, self.jitter, which)
 
     def measured(
-        self,
-        wavelengths: tuple[float, float] | None,
-        required: tuple[float, float] | None = None,
+        self, wavelengths: tuple[float, float] | None, required: tuple[float, float] | None = None
     ) -> MeasuredProfile:
         """The level of `measured_file`, with the wavelengths that are kept; None: all of them."""
         return measured_profile(

@@ -14,28 +14,12 @@ from contactstudy.exceptions import InputError
 class SpectralEstimate:
     """Power spectral density of a sampled signal.
 
-    Parameters
-    ----------
-    wavenumber : ndarray, shape (n,)
-        From 0 to Nyquist, in ``unit``; frequency in 1/m or rad/m, or Hz or rad/s for a signal
-        in time.
-    density : ndarray, shape (n,)
-        Signal squared per ``unit``.
-    sides : {"two", "one"}
-        Two-sided: half of the variance lies at these wavenumbers, half at their negatives.
-    unit : {"rad/m", "1/m"}
-        Angular or not.
-    segment_length : float
-        Length of one segment, in the unit of the spacing.
-    n_segments : int
-        Number of averaged segments.
+    Wavenumbers (n,) from 0 to Nyquist, in 1/m or rad/m (Hz or rad/s for a signal in time);
+    density (n,), the signal squared per unit of wavenumber; number of averaged segments.
     """
 
     wavenumber: Array
     density: Array
-    sides: Literal["one", "two"]
-    unit: Literal["rad/m", "1/m"]
-    segment_length: float
     n_segments: int
 
 
@@ -50,14 +34,12 @@ def spectral_estimate(
 
     Parameters
     ----------
-    values : array_like, shape (n,)
-        Equally spaced samples.
     dx : float
-        Their spacing [m] (or [s]).
+        Spacing of the values [m] (or [s]).
     segment_length : float, optional
         Length of a segment, in the unit of ``dx``; an eighth of the record by default.
     sides : {"two", "one"}
-        The default lies on G_rr of eq. (3) as it stands.
+        Two-sided, half of the variance lies at negative wavenumbers: as G_rr of eq. (3).
     unit : {"rad/m", "1/m"}
         Angular wavenumber or wavenumber.
 
@@ -83,7 +65,7 @@ def spectral_estimate(
     turn = 2.0 * np.pi if unit == "rad/m" else 1.0
     # S_omega = S_f/(2 pi); the one-sided density is the double
     density = density / turn * (2.0 if sides == "one" else 1.0)
-    return SpectralEstimate(turn * frequency, density, sides, unit, n * dx, segments)
+    return SpectralEstimate(turn * frequency, density, segments)
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,23 +74,18 @@ class ThirdOctaves:
 
     Parameters
     ----------
-    nominal : ndarray, shape (n,)
-        Nominal centre frequencies [Hz], or wavenumbers [1/m] of a signal in space.
-    centre : ndarray, shape (n,)
-        Exact centres 10^(k/10).
+    nominal, centre : ndarray, shape (n,)
+        Nominal and exact centres 10^(k/10) [Hz], or [1/m] of a signal in space.
     mean_square : ndarray, shape (n,)
-        Mean square of the signal in each band.
+        Of the signal in each band.
     level : ndarray, shape (n,)
         10 lg(mean_square/reference^2) [dB]; -inf where the band is empty.
-    reference : float
-        Reference value, in the signal's unit.
     """
 
     nominal: Array
     centre: Array
     mean_square: Array
     level: Array
-    reference: float
 
     @property
     def wavelength(self) -> Array:
@@ -131,10 +108,8 @@ def third_octave_levels(
 
     Parameters
     ----------
-    values : array_like, shape (n,)
-        Equally spaced samples.
     spacing : float
-        Their spacing [m] or [s].
+        Of the values [m] or [s].
     reference : float
         0 dB, in the signal's unit: 1e-6 m for roughness.
     segment_length : float, optional
@@ -168,7 +143,7 @@ def third_octave_levels(
     mean_square = np.interp(upper, edges, total) - np.interp(lower, edges, total)
     with np.errstate(divide="ignore"):
         level = 10.0 * np.log10(np.maximum(mean_square, 0.0) / reference**2)
-    return ThirdOctaves(nominal_centre(centre), centre, mean_square, level, reference)
+    return ThirdOctaves(nominal_centre(centre), centre, mean_square, level)
 
 
 _NOMINAL = np.array([1.0, 1.25, 1.6, 2.0, 2.5, 3.15, 4.0, 5.0, 6.3, 8.0])

@@ -12,15 +12,7 @@ from contactstudy.irregularity.profile import Profile, check_derivative
 
 @dataclass(frozen=True, eq=False)
 class FadedProfile:
-    """A profile that grows smoothly from nothing; made by ``faded``.
-
-    Parameters
-    ----------
-    profile : Profile
-        The profile behind the fade-in.
-    start, length : float
-        Where the fade-in starts and how long it is [m].
-    """
+    """A profile and its fade-in, which starts at ``start`` [m]; made by ``faded``."""
 
     profile: Profile
     start: float
@@ -65,19 +57,7 @@ class FadedProfile:
 def faded(profile: Profile, start: float, length: float) -> Profile:
     """Profile multiplied by a quintic smoothstep from 0 at ``start`` to 1 ``length`` later.
 
-    Parameters
-    ----------
-    profile : Profile
-        The profile to fade in.
-    start : float
-        Position up to which it is zero [m].
-    length : float
-        Length of the fade-in [m]; 0 leaves the profile as it is.
-
-    Raises
-    ------
-    InputError
-        If the length is negative or not a number.
+    Both in m; a length of 0 leaves the profile as it is, a negative one is an ``InputError``.
     """
     if not length >= 0.0 or not np.isfinite(length):
         raise InputError(f"fade-in length is {length} m; allowed: 0 m or more")

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from contactstudy.exceptions import InputError
 from contactstudy.irregularity.profile import HarmonicProfile
+from contactstudy.validation import raise_if
 
 #: Wavelength [m] -> rail roughness level [dB re 1 um] per third octave; ISO 3095:2013, limit of
 #: the acoustic rail roughness for type tests.
@@ -41,19 +41,8 @@ def iso_3095_profile(
     Each band has `lines` waves of equal amplitude and random phase at wavenumbers that share it
     equally on the logarithmic scale, so that ``lines a^2/2 = 10^(L/10) (1 um)^2``.
 
-    Parameters
-    ----------
-    seed : int
-        Of the phases; from 0 on.
-    wavelengths : tuple of float
-        Shortest and longest nominal wavelength of the bands [m], from 3.15 mm to 0.4 m.
-    lines : int
-        Waves a band.
-
-    Raises
-    ------
-    InputError
-        If no band lies between the wavelengths, or lines or seed are impossible.
+    The bands are those from the shortest to the longest nominal wavelength [m]. If there is none,
+    or lines or seed are impossible, that is an ``InputError``.
     """
     low, high = wavelengths
     chosen = [w for w in ISO_3095_LIMIT if low * (1 - 1e-9) <= w <= high * (1 + 1e-9)]
@@ -64,8 +53,7 @@ def iso_3095_profile(
         problems.append(f"lines = {lines}: must be at least 1")
     if seed < 0:
         problems.append(f"seed = {seed}: must be a whole number from 0 on")
-    if problems:
-        raise InputError(problems)
+    raise_if(problems)
     share = (np.arange(lines) + 0.5) / lines - 0.5
     # the exact centre of a band is 10^(k/10), in 1/m; it is 10^(1/10) wide
     centre = 10.0 ** (np.rint(10.0 * np.log10(1.0 / np.array(chosen))) / 10.0)

@@ -14,6 +14,7 @@ from contactstudy.arrays import Array
 from contactstudy.exceptions import InputError
 from contactstudy.irregularity.profile import check_derivative
 from contactstudy.irregularity.table import read_columns
+from contactstudy.validation import raise_if
 
 if TYPE_CHECKING:
     from scipy.interpolate import BSpline
@@ -29,17 +30,15 @@ class MeasuredProfile:
 
     Parameters
     ----------
-    positions : ndarray, shape (n,)
-        Increasing positions X along the track [m].
-    levels : ndarray, shape (n,)
-        Level of the running surface, positive upwards [m].
-    interpolation : {"cubic", "linear"}
+    positions, levels : ndarray, shape (n,)
+        Increasing positions X along the track [m]; levels, positive upwards [m].
+    interpolation
         Cubic spline (not-a-knot ends, second derivative continuous), or straight lines, which
         have no second derivative.
-    wavelengths : tuple of float, optional
+    wavelengths
         Shortest and longest wavelength that the levels contain [m]; None if not filtered.
-    name : str
-        Name for messages and legends.
+    name
+        For messages and legends.
     """
 
     positions: Array
@@ -78,7 +77,8 @@ class MeasuredProfile:
             raise InputError(f"{self.name}: linear interpolation has no second derivative")
         position = np.asarray(x, dtype=float)
         if position.size:
-            check_coverage(self, float(position.min()), float(position.max()))
+            ends = float(position.min()), float(position.max())
+            raise_if(_uncovered(self.name, self.domain, *ends))
         inside = np.clip(position, *self.domain)  # a rounding error beyond the last position
         return np.asarray(self._spline(inside, nu=derivative), dtype=float)
 
@@ -98,8 +98,6 @@ def measured_profile(
 
     Parameters
     ----------
-    path : str or Path
-        Comma-separated file; its first line names the columns.
     level_column, level_unit : str
         Column of the level, positive upwards, and its unit: m, mm or um.
     x_column : str
@@ -136,19 +134,11 @@ def measured_profile(
     x = x - origin
     if required is not None:
         problems += _uncovered(str(file), (float(x[0]), float(x[-1])), *required)
-    if problems:
-        raise InputError(problems)
+    raise_if(problems)
     level = level * UNITS[level_unit]
     if wavelengths is not None:
         x, level = _band_passed(file, x, level, wavelengths, interpolation)
     return MeasuredProfile(x, level, interpolation, wavelengths, str(file))
-
-
-def check_coverage(profile: MeasuredProfile, start: float, end: float) -> None:
-    """Raise ``InputError`` unless the profile is known from ``start`` to ``end`` [m]."""
-    problems = _uncovered(profile.name, profile.domain, start, end)
-    if problems:
-        raise InputError(problems)
 
 
 def _uncovered(name: str, domain: tuple[float, float], start: float, end: float) -> list[str]:
@@ -191,8 +181,7 @@ def _band_passed(
             f"{file}: longest wavelength is {longest:g} m; allowed: up to {x[-1] - x[0]:g} m, the "
             "length of the record"
         )
-    if problems:
-        raise InputError(problems)
+    raise_if(problems)
     sos = butter(4, (1.0 / longest, 1.0 / shortest), "bandpass", fs=1.0 / dx, output="sos")
     # mirrored ends longer than the longest wavelength let the filter settle outside the record
     pad = min(len(x) - 1, round(2.0 * longest / dx))

@@ -27,14 +27,7 @@ class Profile(Protocol):
         """Length after which the profile repeats, or nearly so; infinite if it does not [m]."""
 
     def __call__(self, x: ArrayLike, derivative: int = 0) -> Array:
-        """Value or derivative at positions of any shape.
-
-        Parameters
-        ----------
-        x : array_like
-            Positions X [m].
-        derivative : int
-            0, 1 or 2 [m, 1, 1/m].
+        """Value or derivative (0, 1 or 2) at positions of any shape [m, 1, 1/m].
 
         Raises
         ------
@@ -74,14 +67,7 @@ class HarmonicProfile:
     It is fixed by its terms and never by a sampling grid: the same position gives the same
     value, whatever other positions are asked for.
 
-    Parameters
-    ----------
-    amplitudes : ndarray, shape (n,)
-        a_k [m].
-    wavenumbers : ndarray, shape (n,)
-        omega_k [rad/m].
-    phases : ndarray, shape (n,)
-        phi_k [rad].
+    Amplitudes a_k (n,) [m], wavenumbers omega_k (n,) [rad/m], phases phi_k (n,) [rad].
 
     Raises
     ------
@@ -154,13 +140,7 @@ class HarmonicProfile:
 
 
 def check_repeat(profile: Profile, length: float) -> bool:
-    """Warn if a study of this length [m] sees the same irregularity again.
-
-    Returns
-    -------
-    bool
-        True if it warned (category ``RepeatWarning``).
-    """
+    """Warn (`RepeatWarning`) if a study of this length [m] sees the same irregularity again."""
     repeat = profile.repeat_length
     if length <= repeat:
         return False

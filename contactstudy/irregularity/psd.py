@@ -27,11 +27,11 @@ class Convention:
 
     Parameters
     ----------
-    sides : {"two", "one"}
+    sides
         Two-sided: the variance is the integral over both signs of the wavenumber.
-    wavenumber : {"rad/m", "1/m"}
+    wavenumber
         Variable of the formula and of the integral.
-    square : float
+    square
         Square of the unit of length in the numerator [m^2]: 1e-6 for mm^2, 1e-4 for cm^2.
     """
 
@@ -62,25 +62,17 @@ class Spectrum:
 
     Parameters
     ----------
-    name : str
-        Name for messages and legends.
-    formula : callable
+    name
+        For messages and legends.
+    formula
         The source's formula: wavenumber > 0 to density, both in ``convention``.
-    convention : Convention
-        How the source is to be read.
-    source : str
-        Where the formula and its numbers come from.
-    parameters : tuple of (str, float)
-        The formula's numbers, in the source's units.
-    breaks : tuple of float
+    breaks
         Wavenumbers of ``convention`` at which the formula has a kink or a jump.
     """
 
     name: str
     formula: Formula
     convention: Convention
-    source: str
-    parameters: tuple[tuple[str, float], ...] = ()
     breaks: tuple[float, ...] = ()
 
     def __call__(self, omega: ArrayLike) -> Array:

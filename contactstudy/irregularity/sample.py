@@ -7,8 +7,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from contactstudy.arrays import Array
-from contactstudy.exceptions import InputError
 from contactstudy.irregularity.profile import HarmonicProfile
+from contactstudy.validation import raise_if
 
 DIRECTIONS = ("vertical", "transverse")
 
@@ -31,25 +31,28 @@ def sample_profile(
     ----------
     spectrum : callable
         Two-sided density [m^2/(rad/m)] at angular wavenumbers [rad/m], e.g. a ``Spectrum``.
-    seed : int
-        Any whole number from 0 on.
-    n_terms : int
-        Number of terms N.
     band : tuple of float
         Lower and upper angular wavenumber [rad/m].
     jitter : bool
         Put each wavenumber at random in its own interval of width (upper - lower)/N, instead
         of in its middle: the profile then does not repeat itself, and the expected variance is
         that of the spectrum.
-    direction : {"vertical", "transverse"}
-        Which of the seed's two independent profiles.
 
     Raises
     ------
     InputError
         With every argument that is not allowed.
     """
-    _check(seed, n_terms, band, direction)
+    problems = []
+    if isinstance(seed, bool) or int(seed) != seed or seed < 0:
+        problems.append(f"seed is {seed}; allowed: whole numbers from 0 on")
+    if isinstance(n_terms, bool) or int(n_terms) != n_terms or n_terms < 1:
+        problems.append(f"number of terms is {n_terms}; allowed: whole numbers from 1 on")
+    if not (np.all(np.isfinite(band)) and 0.0 < band[0] < band[1]):
+        problems.append(f"band is {band} rad/m; allowed: 0 < lower < upper")
+    if direction not in DIRECTIONS:
+        problems.append(f"direction is '{direction}'; allowed: {', '.join(DIRECTIONS)}")
+    raise_if(f"irregularity: {text}" for text in problems)
     lower, upper = band
     stream = np.random.SeedSequence(int(seed)).spawn(2)[DIRECTIONS.index(direction)]
     rng = np.random.default_rng(stream)
@@ -61,17 +64,3 @@ def sample_profile(
     wavenumbers: Array = lower + (np.arange(n_terms) + place) * step
     amplitudes = np.asarray(2.0 * np.sqrt(spectrum(wavenumbers) * step), dtype=float)
     return HarmonicProfile(amplitudes, wavenumbers, phases)
-
-
-def _check(seed: int, n_terms: int, band: tuple[float, float], direction: str) -> None:
-    problems = []
-    if isinstance(seed, bool) or int(seed) != seed or seed < 0:
-        problems.append(f"seed is {seed}; allowed: whole numbers from 0 on")
-    if isinstance(n_terms, bool) or int(n_terms) != n_terms or n_terms < 1:
-        problems.append(f"number of terms is {n_terms}; allowed: whole numbers from 1 on")
-    if not (np.all(np.isfinite(band)) and 0.0 < band[0] < band[1]):
-        problems.append(f"band is {band} rad/m; allowed: 0 < lower < upper")
-    if direction not in DIRECTIONS:
-        problems.append(f"direction is '{direction}'; allowed: {', '.join(DIRECTIONS)}")
-    if problems:
-        raise InputError(f"irregularity: {text}" for text in problems)

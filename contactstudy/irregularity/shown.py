@@ -15,17 +15,8 @@ if TYPE_CHECKING:
 class SpectrumCurve:
     """Samples of a power spectral density of the vertical irregularity.
 
-    Attributes
-    ----------
-    label : str
-        Text for a legend.
-    wavenumber : (n,) array
-        Angular wavenumber in rad/m, increasing.
-    density : (n,) array
-        Two-sided density G in m^2/(rad/m): the variance is the integral over both signs of
-        the wavenumber, 2 * int_0^inf G dω.
-    band : (2,) tuple of float
-        Wavenumbers in rad/m between which the density is valid.
+    Angular wavenumber (n,) in rad/m, increasing; two-sided density G (n,) in m^2/(rad/m): the
+    variance is 2 * int_0^inf G dω. It is valid within ``band``, in rad/m.
     """
 
     label: str
@@ -49,16 +40,14 @@ class IrregularityInfo:
 
     Attributes
     ----------
-    spectrum : SpectrumCurve or None
+    spectrum
         The formula, e.g. eq. (3); None when the study's irregularity is a measured profile.
-    estimate : SpectrumCurve or None
-        Spectral estimate of the profile in use; None for a smooth rail.
-    profile : Level or None
+    estimate
+        Of the profile in use; None for a smooth rail.
+    profile
         The profile in use over the track (before it is faded in).
-    measured : SpectrumCurve or None
-        Spectral estimate of a measured profile, with the band in which it is valid.
-    measured_profile : Level or None
-        The measured level itself, band-passed.
+    measured, measured_profile
+        Spectral estimate of a measured profile, and its level, band-passed.
     """
 
     spectrum: SpectrumCurve | None = None
@@ -83,8 +72,8 @@ def to_dataset(info: IrregularityInfo) -> xr.Dataset:
             k = f"{key}_wavenumber"
             data[k] = (k, spectrum.wavenumber, {"units": "rad/m"})
             attrs = {"units": "m^2/(rad/m)", "sides": "two", "long_name": spectrum.label}
+            attrs["valid_band"] = list(spectrum.band)
             data[f"{key}_density"] = (k, spectrum.density, attrs)
-            data[f"{key}_density"].attrs["valid_band"] = list(spectrum.band)
     for key in _LEVELS:
         level = getattr(info, key)
         if level is not None:
@@ -105,7 +94,6 @@ def from_dataset(data: xr.Dataset) -> IrregularityInfo:
             parts[key] = SpectrumCurve(density.attrs["long_name"], wavenumber, density.values, band)
     for key in _LEVELS:
         if key in data:
-            level = data[key]
-            position = data[f"{key}_position"].values
-            parts[key] = Level(level.attrs["long_name"], position, level.values)
+            label, position = data[key].attrs["long_name"], data[f"{key}_position"].values
+            parts[key] = Level(label, position, data[key].values)
     return IrregularityInfo(**parts)

@@ -10,6 +10,7 @@ import numpy as np
 from contactstudy.arrays import Array
 from contactstudy.exceptions import InputError
 from contactstudy.irregularity.psd import TWO_SIDED, Convention, Sides, Spectrum
+from contactstudy.validation import not_negative, positive, raise_if
 
 
 def paper_spectrum(
@@ -17,22 +18,19 @@ def paper_spectrum(
 ) -> Spectrum:
     """Eq. (3) of the paper; the defaults are its Table 1.
 
-    Parameters
-    ----------
-    roughness : float
-        A_r [m^2 rad/m].
-    omega_1, omega_2 : float
-        Wavenumbers that shape the spectrum [rad/m].
+    Roughness A_r in m^2 rad/m, wavenumbers omega_1 and omega_2 in rad/m.
     """
-    _positive("paper", roughness=roughness, omega_2=omega_2)
-    _not_negative("paper", omega_1=omega_1)
+    raise_if(
+        positive("roughness", roughness, "m^2*rad/m")
+        + not_negative("omega_1", omega_1, "rad/m")
+        + positive("omega_2", omega_2, "rad/m")
+    )
 
     def formula(w: Array) -> Array:
         # G_rr = A_r w2^2 (w^2 + w1^2)/(w^4 (w^2 + w2^2))
         return roughness * omega_2**2 * (w**2 + omega_1**2) / (w**4 * (w**2 + omega_2**2))
 
-    numbers = (("roughness", roughness), ("omega_1", omega_1), ("omega_2", omega_2))
-    return Spectrum("paper", formula, TWO_SIDED, "the paper, eq. (3) and Table 1", numbers)
+    return Spectrum("paper", formula, TWO_SIDED)
 
 
 _GERMAN = {"vertical": (4.032e-7, 1.08e-6), "lateral": (2.119e-7, 6.125e-7)}
@@ -47,11 +45,11 @@ def german(
 
     Parameters
     ----------
-    level : {"low", "high"}
+    level
         Disturbance.
-    direction : {"vertical", "lateral"}
+    direction
         Longitudinal level or alignment.
-    sides : {"two", "one"}
+    sides
         How the formula is read; two-sided is this program's convention, one-sided halves the
         density.
 
@@ -75,8 +73,7 @@ def german(
         return a * omega_c**2 / ((w**2 + omega_r**2) * (w**2 + omega_c**2))
 
     name = f"German {level} disturbance" + ("" if direction == "vertical" else ", lateral")
-    numbers = (("A", a), ("omega_c", omega_c), ("omega_r", omega_r))
-    return Spectrum(name, formula, Convention(sides), "ERRI B176", numbers)
+    return Spectrum(name, formula, Convention(sides))
 
 
 _FRA = (1.2107, 1.0181, 0.6816, 0.5376, 0.2095, 0.0339)
@@ -85,12 +82,7 @@ _FRA = (1.2107, 1.0181, 0.6816, 0.5376, 0.2095, 0.0339)
 def fra(track_class: int = 6, sides: Sides = "two") -> Spectrum:
     """Vertical spectrum of the Federal Railroad Administration's track classes 1 to 6.
 
-    Parameters
-    ----------
-    track_class : int
-        1 (worst) to 6.
-    sides : {"two", "one"}
-        How the formula is read; two-sided is this program's convention.
+    Class 1 is the worst; ``sides`` as in `german`.
 
     Notes
     -----
@@ -106,9 +98,7 @@ def fra(track_class: int = 6, sides: Sides = "two") -> Spectrum:
         # S = 0.25 A_v w_c^2/(w^2 (w^2 + w_c^2)), A_v in cm^2 rad/m
         return 0.25 * a * omega_c**2 / (w**2 * (w**2 + omega_c**2))
 
-    numbers = (("A_v", a), ("omega_c", omega_c), ("k", 0.25))
-    convention = Convention(sides, "rad/m", 1e-4)
-    return Spectrum(f"FRA class {track_class}", formula, convention, "FRA", numbers)
+    return Spectrum(f"FRA class {track_class}", formula, Convention(sides, "rad/m", 1e-4))
 
 
 # S = A/f^n in mm^2/(1/m), one-sided, f in 1/m: upper end of each range, A, n
@@ -129,15 +119,8 @@ def tbt3352() -> Spectrum:
         part = np.searchsorted(ends, f, side="right")
         return a[part] / f ** n[part]
 
-    numbers = tuple(
-        (f"{key}_{i + 1}", value)
-        for i, row in enumerate(_TBT3352)
-        for key, value in zip(("A", "n"), row[1:], strict=True)
-    )
     convention = Convention("one", "1/m", 1e-6)
-    return Spectrum(
-        "TB/T 3352 ballastless", formula, convention, "TB/T 3352-2014", numbers, tuple(ends)
-    )
+    return Spectrum("TB/T 3352 ballastless", formula, convention, tuple(ends))
 
 
 _NAMED: dict[str, tuple[Callable[..., Spectrum], dict[str, Any]]] = {
@@ -188,15 +171,3 @@ def _one_of(name: str, key: str, value: Any, allowed: tuple[Any, ...]) -> None:
         raise InputError(
             f"spectrum '{name}': {key} is {value!r}; allowed: {', '.join(map(str, allowed))}"
         )
-
-
-def _positive(name: str, **values: float) -> None:
-    bad = [f"{k} is {v}" for k, v in values.items() if not (np.isfinite(v) and v > 0.0)]
-    if bad:
-        raise InputError(f"spectrum '{name}': {text}; allowed: above 0" for text in bad)
-
-
-def _not_negative(name: str, **values: float) -> None:
-    bad = [f"{k} is {v}" for k, v in values.items() if not (np.isfinite(v) and v >= 0.0)]
-    if bad:
-        raise InputError(f"spectrum '{name}': {text}; allowed: 0 or more" for text in bad)

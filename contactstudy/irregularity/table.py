@@ -7,24 +7,14 @@ import numpy as np
 from contactstudy.arrays import Array
 from contactstudy.csv_rows import finite_number, listed, read_rows
 from contactstudy.exceptions import InputError
+from contactstudy.validation import raise_if
 
 
 def read_columns(path: Path, columns: tuple[str, str], min_rows: int = 4) -> tuple[Array, Array]:
     """Two columns of numbers, the first of them increasing.
 
-    Parameters
-    ----------
-    path : Path
-        Comma-separated file whose first line names the columns; blank lines are skipped.
-    columns : tuple of str
-        Names of the column of positions and of the column of values.
-    min_rows : int
-        Rows needed.
-
-    Returns
-    -------
-    positions, values : ndarray, shape (n,)
-        In the file's own units.
+    The file is comma-separated and its first line names the columns; blank lines are skipped.
+    Positions and values (n,) stay in the file's own units.
 
     Raises
     ------
@@ -58,8 +48,7 @@ def read_columns(path: Path, columns: tuple[str, str], min_rows: int = 4) -> tup
     problems += listed(path, _disorder(rows, table[:, 0], columns[0]))
     if len(table) < min_rows:
         problems.append(f"{path}: {len(table)} rows of numbers; allowed: {min_rows} or more")
-    if problems:
-        raise InputError(problems)
+    raise_if(problems)
     return table[:, 0].copy(), table[:, 1].copy()
 
 

@@ -17,15 +17,7 @@ Naming = Callable[[str], str]
 
 @dataclass(frozen=True)
 class Place:
-    """The table of a study file that an object was read from.
-
-    Attributes
-    ----------
-    path : str
-        Of the table.
-    given : frozenset of str
-        Fields whose keys stand in it.
-    """
+    """The table of a study file that an object was read from, and its fields that stand in it."""
 
     path: str
     given: frozenset[str]
@@ -43,8 +35,7 @@ class Parameters:
 
     def __post_init__(self) -> None:
         key = self._naming()
-        given = vars(self)
-        values, problems = check(type(self), given, key)
+        values, problems = check(type(self), vars(self), key)
         for name, value in values.items():
             object.__setattr__(self, name, value)
         if not problems:
@@ -68,7 +59,7 @@ class Parameters:
         """Key -> SI value of all keys that apply, as plain data."""
         own = parameters(type(self))
         found = {
-            p.key: plain(getattr(self, p.name))
+            p.key: list(value) if isinstance(value := getattr(self, p.name), tuple) else value
             for p in own
             if p.key and p.variants is None and p.applies(self)
         }
@@ -111,14 +102,7 @@ def naming(owner: type, path: str) -> Naming:
 def check(owner: type, given: Mapping[str, Any], key: Naming) -> tuple[dict[str, Any], list[str]]:
     """Values of the fields of a class as it holds them, and everything that is wrong with them.
 
-    Parameters
-    ----------
-    owner : type
-        A dataclass.
-    given : mapping of str to object
-        Field -> value; fields that are left out are not looked at.
-    key : callable
-        From a field to how the caller knows it.
+    Fields that are not `given` are not looked at.
     """
     values: dict[str, Any] = {}
     problems = []
@@ -155,11 +139,6 @@ def wrong_type(key: str, value: object, classes: Iterable[type | None]) -> str:
     """Complaint about an object that is of none of the classes; None stands for None itself."""
     allowed = " or ".join("None" if made is None else made.__name__ for made in classes)
     return f"{key}: is a {type(value).__name__}; must be of type {allowed}"
-
-
-def plain(value: Any) -> Any:
-    """Value as a study file could hold it."""
-    return list(value) if isinstance(value, tuple) else value
 
 
 def of_variant(variants: Variants, made: Parameters | None) -> dict[str, Any]:

@@ -22,22 +22,16 @@ class Parameter:
 
     Attributes
     ----------
-    name : str
+    name
         Field of the class.
-    key : str
+    key
         Key in a study file, "" if it has none.
-    type : object
+    type
         Type of the value, without metadata.
-    default : object
-    limits : Limits
+    limits
         Of a number, or of each number of a list; with the unit.
-    meaning : str
-    when : tuple of When
-    by : By or None
-    variants : Variants or None
+    variants
         The parameter is an object that a deciding key chooses.
-    written : Written or None
-    file : File or None
     """
 
     name: str

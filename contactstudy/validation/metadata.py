@@ -44,10 +44,7 @@ class Key:
 class File:
     """The value is a file's name, relative to the study file that it stands in.
 
-    Attributes
-    ----------
-    or_name : bool
-        It may also be the name of something shipped, which has no suffix.
+    With `or_name` it may also be the name of something shipped, which has no suffix.
     """
 
     or_name: bool = False
@@ -61,27 +58,14 @@ class Same:
     name: str
 
 
-@dataclass(frozen=True, init=False)
 class When:
     """The parameter means something only with these values of a field of the same class.
 
-    Attributes
-    ----------
-    decider : str
-        Field or property.
-    values : tuple of str
-    key : str
-        Key of a study file that decides, where `decider` is a property.
+    Where `decider` is a property, `key` is the key of a study file that decides.
     """
 
-    decider: str
-    values: tuple[str, ...]
-    key: str
-
     def __init__(self, decider: str, *values: str, key: str = "") -> None:
-        object.__setattr__(self, "decider", decider)
-        object.__setattr__(self, "values", values)
-        object.__setattr__(self, "key", key or decider)
+        self.decider, self.values, self.key = decider, values, key or decider
 
 
 @dataclass(frozen=True)
@@ -101,16 +85,11 @@ class Written:
     form: str = ""
 
 
-@dataclass(frozen=True, init=False)
 class By:
     """Defaults that depend on another field of the same class."""
 
-    decider: str
-    defaults: Mapping[str, Any]
-
     def __init__(self, decider: str, **defaults: Any) -> None:
-        object.__setattr__(self, "decider", decider)
-        object.__setattr__(self, "defaults", defaults)
+        self.decider, self.defaults = decider, defaults
 
 
 def by() -> Any:
@@ -122,13 +101,7 @@ def by() -> Any:
 class Variants:
     """A key of a study file whose value chooses a class; its parameters stand in the same table.
 
-    Attributes
-    ----------
-    key : str
-        The deciding key.
-    classes : mapping of str to type or None
-        Value of the key -> class; the first one is the default.
-    meaning : str
+    The first of the classes, None for nothing, is the default.
     """
 
     key: str

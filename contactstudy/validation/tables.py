@@ -9,14 +9,7 @@ from typing import Any, Literal, cast
 
 from contactstudy.exceptions import InputError
 from contactstudy.units import Limits
-from contactstudy.validation.base import (
-    Parameters,
-    Place,
-    check,
-    naming,
-    of_variant,
-    only_with,
-)
+from contactstudy.validation.base import Parameters, Place, check, naming, of_variant, only_with
 from contactstudy.validation.definition import Parameter, parameters
 from contactstudy.validation.messages import any_of, complaint, did_you_mean, unknown
 from contactstudy.validation.metadata import Variants
@@ -27,14 +20,7 @@ Table = type[Parameters] | Variants
 
 @dataclass(frozen=True)
 class Entry:
-    """A key of a table.
-
-    Attributes
-    ----------
-    parameter : Parameter
-    conditions : tuple of (str, tuple of str)
-        Deciding keys and the values of them with which the key applies, outermost first.
-    """
+    """A key of a table; deciding keys and their values with which it applies, outermost first."""
 
     parameter: Parameter
     conditions: tuple[tuple[str, tuple[str, ...]], ...] = ()
@@ -83,22 +69,17 @@ def _of_variants(variants: Variants) -> dict[str, Entry]:
 def read(table: Table, data: Any, path: str, **others: Any) -> tuple[Any, list[str]]:
     """Object that a table of a study file describes, and everything that is wrong with it.
 
+    None for the object if a value is wrong. If only rules over several values are broken it is
+    there, to be checked further, and must not be used.
+
     Parameters
     ----------
-    table : type of Parameters or Variants
     data : object
         The table as TOML gives it.
     path : str
         Its dotted name.
     **others
         Values of fields that have no key.
-
-    Returns
-    -------
-    object or None
-        None if a value is wrong. If only rules over several values are broken it is there, to be
-        checked further, and must not be used.
-    list of str
     """
     if not isinstance(data, Mapping):
         return None, [complaint(path, data, "must be a table")]
@@ -152,15 +133,9 @@ def _made(
 
 
 def resolve_paths(table: Table, data: Any, base: Path) -> None:
-    """Make files in a table of a study file, which are relative to it, relative to here.
+    """Make files in a table of a study file, relative to its folder `base`, relative to here.
 
-    Parameters
-    ----------
-    table : type of Parameters or Variants
-    data : object
-        Changed in place; what is no table is left to the check of its values.
-    base : Path
-        Folder of the study file.
+    `data` is changed in place; what is no table is left to the check of its values.
     """
     for key, entry in entries(table).items() if isinstance(data, dict) else ():
         name, file = data.get(key), entry.parameter.file

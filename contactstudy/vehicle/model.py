@@ -18,16 +18,14 @@ class Vehicle:
 
     Parameters
     ----------
-    mass, damping, stiffness : ndarray
+    mass, damping, stiffness
         (nv, nv), symmetric.
-    wheel_dofs : ndarray
+    wheel_dofs
         (nw,) the dofs that are wheel displacements.
-    wheel_offsets : ndarray
+    wheel_offsets
         (nw,) position of each wheel relative to the leading wheel, at most 0 [m].
-    static_loads : ndarray
+    static_loads
         (nw,) static force of each wheel on the rail, positive in compression [N].
-    dof_names : tuple of str
-        (nv,).
 
     Raises
     ------
@@ -97,11 +95,6 @@ def with_wheel_modes(
     damping : float
         Ratio of all modes.
 
-    Returns
-    -------
-    Vehicle
-        The dofs of the given one first.
-
     Raises
     ------
     InputError
@@ -128,23 +121,14 @@ def with_wheel_modes(
         matrices.append(whole)
     matrices[0][wheel, n:] = matrices[0][n:, wheel] = L
     names = vehicle.dof_names + tuple(f"wheel mode {k + 1}" for k in range(m))
-    return replace(
-        vehicle,
-        mass=matrices[0],
-        damping=matrices[1],
-        stiffness=matrices[2],
-        dof_names=names,
-    )
+    fields = dict(zip(("mass", "damping", "stiffness"), matrices, strict=True))
+    return replace(vehicle, dof_names=names, **fields)
 
 
 def train(vehicles: Sequence[Vehicle], offsets: Sequence[float]) -> Vehicle:
     """Put several vehicles behind each other as one vehicle, uncoupled.
 
-    Parameters
-    ----------
-    vehicles : sequence of Vehicle
-    offsets : sequence of float
-        Position of each vehicle's leading wheel relative to the first's, at most 0 [m].
+    The offsets are the positions of their leading wheels relative to the first's, at most 0 [m].
     """
     problems = []
     if not vehicles or len(vehicles) != len(offsets):
@@ -169,10 +153,7 @@ def train(vehicles: Sequence[Vehicle], offsets: Sequence[float]) -> Vehicle:
         stiffness=stiffness,
         wheel_dofs=np.concatenate(dofs),
         wheel_offsets=np.concatenate(
-            [
-                vehicle.wheel_offsets + offset
-                for vehicle, offset in zip(vehicles, offsets, strict=True)
-            ]
+            [v.wheel_offsets + offset for v, offset in zip(vehicles, offsets, strict=True)]
         ),
         static_loads=np.concatenate([vehicle.static_loads for vehicle in vehicles]),
         dof_names=tuple(names),

@@ -108,9 +108,10 @@ def describe(study: Study) -> Described:
 def _curve(table: irr.Irregularity) -> SpectrumCurve:
     omega = np.geomspace(*table.band, CURVE_POINTS)
     formula = table.formula()
-    table_1 = formula.parameters == irr.paper_spectrum().parameters
+    density = formula(omega)
+    table_1 = np.array_equal(density, irr.paper_spectrum()(omega))
     label = "eq. (3), Table 1" if table_1 else formula.name
-    return SpectrumCurve(label, omega, formula(omega), table.band)
+    return SpectrumCurve(label, omega, density, table.band)
 
 
 def _estimate(table: irr.Irregularity, profile: irr.Profile) -> SpectrumCurve:
