@@ -57,21 +57,10 @@ def calculix_input(
 
     The contact pressure is taken face to face (``SURFACE TO SURFACE``): CalculiX cuts the tread's
     faces with the rail's and integrates on the pieces. Unlike the program it takes the gap between
-    the flat faces, not between the smooth profiles. The first step only closes the gap, so that
-    the hub, which nothing but the contact holds, does not fall in the second.
+    the flat faces, not between the smooth profiles. The first step only closes the gap, so that the
+    hub, which nothing but the contact holds, does not fall in the second.
 
-    Parameters
-    ----------
-    mesh : PressMesh
-    loading : PressLoading
-    youngs_modulus, poisson_ratio : float
-        Of both bodies, E in Pa.
-    header : sequence of str
-        Comment lines.
-
-    Returns
-    -------
-    str
+    The elastic constants are those of both bodies, E in Pa; `header` are comment lines.
     """
     held = (*("SYMMETRY, 2, 2",) * mesh.symmetric, "ENDS, 1, 3", "BORE, 1, 2")
     share, whose = (0.5, ", half of it on this half model") if mesh.symmetric else (1.0, "")

@@ -84,23 +84,11 @@ class PressMesh:
 def press_mesh(
     cell: CellRecipe, wheel: WheelRecipe, length: float, geometry: Geometry | None = None
 ) -> PressMesh:
-    """Mesh the wheel in the middle of a rail.
+    """Mesh the wheel in the middle of a rail of a given length [m], a whole number of slices.
 
-    Parameters
-    ----------
-    cell : CellRecipe
-        Mesh of the rail.
-    wheel : WheelRecipe
-        Of the same kind of section, half or whole.
-    length : float
-        Of the rail in m, a whole number of slices.
-    geometry : Geometry, optional
-        Position of the wheel, of the very profiles that are meshed. A half model is centred and
-        upright and needs none.
-
-    Returns
-    -------
-    PressMesh
+    Rail and wheel are of the same kind of section, half or whole. The geometry is the position of
+    the wheel, of the very profiles that are meshed; a half model is centred and upright and needs
+    none.
 
     Raises
     ------

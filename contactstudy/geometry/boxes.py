@@ -17,27 +17,12 @@ if TYPE_CHECKING:
 def facet_boxes(
     mesh: trimesh.Trimesh, size: float, padding: float = 0.0, along: float = np.inf
 ) -> Array:
-    """Boxes around groups of neighbouring facets of any triangulated surface.
+    """Boxes (m, 2, 3), lower and upper corners [m], around groups of a surface's facets.
 
-    Facets are grouped by the cell of a lattice in which their centre lies, and a box encloses
-    its facets whole; so the boxes together cover the surface however it is triangulated.
-
-    Parameters
-    ----------
-    mesh : trimesh.Trimesh
-        Any surface; rail heads, scans, closed bodies.
-    size : float
-        Size of the cells across (y and z) in m.
-    padding : float
-        Enlargement on all sides in m.
-    along : float
-        Size of the cells along x in m; none when not given, as suits a rail, whose boxes may be
-        as long as it is.
-
-    Returns
-    -------
-    ndarray (m, 2, 3)
-        Lower and upper corners.
+    Facets are grouped by the cell of a lattice in which their centre lies, `size` across (y and z)
+    and `along` long (x) [m]; without `along` a box may be as long as a rail. A box encloses its
+    facets whole and is enlarged by `padding` [m] on all sides; so the boxes together cover the
+    surface however it is triangulated.
 
     Raises
     ------

@@ -19,18 +19,10 @@ if TYPE_CHECKING:
 
 
 def rail_surface(rail: ProfileCurve, x: ArrayLike, s: ArrayLike) -> trimesh.Trimesh:
-    """Running surface of a straight rail, in the rail's own axes.
+    """Running surface of a straight rail, in its own axes, normals out of the rail.
 
-    Parameters
-    ----------
-    rail : ProfileCurve
-    x, s : array_like (nx, 1), (1, ny) or (nx, ny)
-        Positions along the rail and arc lengths of the nodes in m.
-
-    Returns
-    -------
-    trimesh.Trimesh
-        Nodes ``i*ny + j``, unprocessed, normals out of the rail.
+    `x` and `s`, (nx, 1), (1, ny) or (nx, ny), are positions along the rail and arc lengths of the
+    nodes ``i*ny + j`` [m].
     """
     x, s = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(s, dtype=float))
     return grid_mesh(np.concatenate([x[..., None], rail.point(s)], axis=-1))
@@ -39,20 +31,10 @@ def rail_surface(rail: ProfileCurve, x: ArrayLike, s: ArrayLike) -> trimesh.Trim
 def wheel_surface(
     wheel: ProfileCurve, radius: float, x: ArrayLike, s: ArrayLike
 ) -> trimesh.Trimesh:
-    """Tread of a wheel as a surface of revolution, in the wheel's own axes.
+    """Tread of a wheel as a surface of revolution, in its own axes, normals down.
 
-    Parameters
-    ----------
-    wheel : ProfileCurve
-    radius : float
-        Rolling radius at the tape circle in m.
-    x, s : array_like (nx, 1), (1, ny) or (nx, ny)
-        Positions along the wheel and arc lengths of the nodes in m.
-
-    Returns
-    -------
-    trimesh.Trimesh
-        Nodes ``i*ny + j``, quadrilaterals as in `grid_mesh`, normals out of the wheel (down).
+    `radius` is that of the tape circle; `x` and `s`, (nx, 1), (1, ny) or (nx, ny), are positions
+    along the wheel and arc lengths of the nodes ``i*ny + j`` [m]; quadrilaterals as in `grid_mesh`.
     """
     x, s = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(s, dtype=float))
     nodes, _ = PlacedWheel(wheel, radius, Pose()).points_and_normals(x.ravel(), s.ravel())
@@ -81,17 +63,8 @@ def tread_candidates(
 ) -> CandidateList:
     """Search of a wheel's tread facets over the rail, in track axes.
 
-    Parameters
-    ----------
-    geometry, wheel_x, wheel_s
-        As in `contactstudy.geometry.points.contact_points`; `quads` of the list are its `facet`.
-    padding : float
-        In m.
-
-    Returns
-    -------
-    CandidateList
-        Approach 0 is the first touch of the smooth surfaces.
+    Arguments as in `contactstudy.geometry.points.contact_points`, whose `facet` are the list's
+    `quads`; `padding` in m. Approach 0 is the first touch of the smooth surfaces.
     """
     rail, wheel, pose, radius = geometry.rail, geometry.wheel, geometry.pose, geometry.radius
     wheel_x, wheel_s = np.asarray(wheel_x, dtype=float), np.asarray(wheel_s, dtype=float)

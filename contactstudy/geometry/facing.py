@@ -40,16 +40,9 @@ class Facing:
 def surface_gap(
     wheel: PlacedWheel, rail: ProfileCurve, travel: float, x: Array, s: Array
 ) -> Facing:
-    """Gap of points of the wheel's surface.
+    """Gap of points at places x, s (n,) [m] on a wheel's surface.
 
-    Parameters
-    ----------
-    wheel, rail
-        The bodies.
-    travel : float
-        Downward travel of the wheel from its tape circle level with the crown [m].
-    x, s : ndarray (n,)
-        Places on the wheel [m].
+    `travel` is counted downwards from the wheel's tape circle level with the crown [m].
     """
     points, normals = wheel.points_and_normals(x, s)
     arc, gap = rail.project(points[:, 1:] - travel * wheel.pose.vertical)

@@ -40,20 +40,7 @@ class Rows:
 
 
 def linear_rows(lines: Array, points: Array) -> Rows:
-    """Linear interpolation on lines of any spacing.
-
-    Parameters
-    ----------
-    lines : ndarray (m,)
-        Increasing coordinates of the nodes in m.
-    points : ndarray (n,)
-        Coordinates in m within the lines.
-
-    Returns
-    -------
-    Rows
-        (n, 2)
-    """
+    """Rows (n, 2) of linear interpolation on increasing lines (m,) to points (n,) within [m]."""
     _check_inside(lines, points)
     cell = np.clip(np.searchsorted(lines, points, side="right") - 1, 0, len(lines) - 2)
     t = (points - lines[cell]) / (lines[cell + 1] - lines[cell])
@@ -63,17 +50,7 @@ def linear_rows(lines: Array, points: Array) -> Rows:
 def grid_rows(x: Rows, y: Rows, ny: int) -> Rows:
     """Product of two line interpolations for every pair of points (x outer, y inner).
 
-    Parameters
-    ----------
-    x, y : Rows
-        Rows of nx' and ny' points.
-    ny : int
-        Lines in y: the node of lines (ix, iy) is ``ix*ny + iy``.
-
-    Returns
-    -------
-    Rows
-        For the nx'*ny' points of the product grid.
+    The node of lines (ix, iy) is ``ix*ny + iy``.
     """
     index = x.index[:, None, :, None] * ny + y.index[None, :, None, :]
     weight = x.weight[:, None, :, None] * y.weight[None, :, None, :]
@@ -84,12 +61,8 @@ def grid_rows(x: Rows, y: Rows, ny: int) -> Rows:
 class SplineLine:
     """Cubic spline interpolation on fixed lines (not-a-knot at open ends).
 
-    Parameters
-    ----------
-    lines : ndarray (m,)
-        Increasing coordinates of the nodes in m; at least 4, mirrored at least 3.
-    mirrored : bool
-        The values continue symmetrically about ``lines[0]``.
+    The lines (m,) are increasing coordinates of the nodes in m, at least 4; if `mirrored` at least
+    3, the values continuing symmetrically about ``lines[0]``.
 
     Raises
     ------

@@ -21,7 +21,6 @@ class Geometry:
 
     Parameters
     ----------
-    rail, wheel : ProfileCurve
     radius : float
         Rolling radius of the wheel at the tape circle [m].
     pose : Pose
@@ -50,14 +49,9 @@ class Geometry:
         return smooth_touch(self.placed, self.rail)
 
     def facing(self, x: Array, s: Array, down: float = 0.0) -> Facing:
-        """Gap, normals and feet of points of the wheel, lowered from first touch.
+        """Gap, normals and feet of points of the wheel, lowered by `down` from first touch [m].
 
-        Parameters
-        ----------
-        x, s : ndarray (n,)
-            Places on the wheel: along it in its own axes, arc length on its profile [m].
-        down : float
-            Travel from the first touch [m].
+        Places on the wheel x, s (n,): along it in its own axes, arc length on its profile [m].
         """
         return surface_gap(self.placed, self.rail, self.touch.travel + down, x, s)
 
@@ -87,17 +81,9 @@ class Geometry:
         return radius / float(np.cos(touch.angle)), 1.0 / across
 
     def overlap(self, approach: float) -> tuple[Array, Array]:
-        """Where the undeformed bodies overlap, the wheel standing lower than at first touch.
+        """Where the undeformed bodies overlap, the wheel `approach` [m] below touch.
 
-        Parameters
-        ----------
-        approach : float
-            Vertical, in m, positive.
-
-        Returns
-        -------
-        s, arc : ndarray (n,)
-            Arc lengths on wheel and rail in m, at steps of 0.1 mm.
+        Returns arc lengths (n,) on wheel and rail in m, at steps of 0.1 mm.
         """
         first, last = self.wheel.s_range
         s = np.linspace(first, last, int((last - first) / 0.1e-3) + 2)
@@ -111,16 +97,5 @@ class Geometry:
         return Geometry(self.rail, self.wheel, self.radius, pose)
 
     def feet(self, s: Array) -> Array:
-        """Where lines of the wheel come nearest to the rail at the first touch.
-
-        Parameters
-        ----------
-        s : ndarray (n,)
-            Arc lengths on the wheel's profile in m.
-
-        Returns
-        -------
-        ndarray (n,)
-            Arc lengths on the rail in m.
-        """
+        """Arc lengths (n,) on the rail where the wheel's s (n,) come nearest at first touch [m]."""
         return self.on_locus(s).arc

@@ -72,21 +72,11 @@ class ContactPoints:
         return np.tile(self.y, len(self.x))
 
     def nodal_pressure(self, forces: Array) -> Array:
-        """Pressure at the wheel's tread nodes from the forces at the points.
+        """Pressure (mx*my,) [Pa] at the wheel's tread nodes from forces (nx*ny,) [N] at points.
 
         The lumped L2 projection ``p_a = sum_i N_a(i) lam_i / sum_i N_a(i) A_i``. With a stiff
-        penalty four points a facet follow what the nodes cannot, and their own pressures
-        scatter about this one. Points at the nodes have ``lam_a / A_a``.
-
-        Parameters
-        ----------
-        forces : ndarray (nx*ny,)
-            Normal forces in N.
-
-        Returns
-        -------
-        ndarray (mx*my,)
-            Pressure in Pa.
+        penalty four points a facet follow what the nodes cannot, and their own pressures scatter
+        about this one. Points at the nodes have ``lam_a / A_a``.
         """
         n = len(self.wheel_x) * len(self.wheel_y)
         load, area = np.zeros(n), np.zeros(n)
@@ -129,27 +119,19 @@ def contact_points(
     surface. It is 0 at the first touch of the smooth surfaces, which need not be a point of the
     grid; a downward travel d from there closes it by ``d normal_z`` to first order.
 
-    The interpolation on the rail is a product of x and arc: its lines are the feet of the
-    wheel's lines where these come nearest to the rail (`PlacedWheel.locus`), and x is counted
-    in the wheel's axes. With yaw both depend on the other coordinate a little (by
-    ``yaw * distance`` from the touch); the gap is exact.
+    The interpolation on the rail is a product of x and arc: its lines are the feet of the wheel's
+    lines where these come nearest to the rail (`PlacedWheel.locus`), and x is counted in the
+    wheel's axes. With yaw both depend on the other coordinate a little (by ``yaw * distance`` from
+    the touch); the gap is exact.
 
     Parameters
     ----------
-    geometry : Geometry
-        Profiles and position of the bodies.
     wheel_x, wheel_s : ndarray (mx,), (my,)
         Grid lines of the wheel's tread nodes: position along the wheel in its own axes, and arc
         length on its profile [m].
-    quadrature : {"gauss", "nodes"}
-        Gauss points of the facets, or the tread nodes with nodal areas.
     symmetric : bool
         Only y >= 0 is modelled; then ``wheel_s[0]`` must be 0 and the wheel stand centred and
         upright on an upright rail.
-
-    Returns
-    -------
-    ContactPoints
 
     Raises
     ------

@@ -80,16 +80,9 @@ class Pose:
 
 @dataclass(frozen=True, eq=False)
 class PlacedWheel:
-    """Wheel in a pose, its tape circle's lowest point level with the crown of the rail.
+    """Wheel of a profile and a rolling radius at the tape circle [m] in a pose.
 
-    Parameters
-    ----------
-    curve : ProfileCurve
-        The wheel's profile.
-    radius : float
-        Rolling radius at the tape circle [m].
-    pose : Pose
-        Its position.
+    Its tape circle's lowest point is level with the crown of the rail.
     """
 
     curve: ProfileCurve
@@ -103,19 +96,10 @@ class PlacedWheel:
             raise InputError(f"profile {self.curve.name}: is a rail's, a wheel's is needed")
 
     def points_and_normals(self, x: Array, s: Array) -> tuple[Array, Array]:
-        """Points of the surface of revolution, and its outward normals, in rail axes.
+        """Points of the surface of revolution, and its outward normals, (n, 3) in rail axes [m].
 
-        Parameters
-        ----------
-        x : ndarray (n,)
-            Positions along the wheel, in its own axes [m].
-        s : ndarray (n,)
-            Arc length on its profile [m].
-
-        Returns
-        -------
-        points, normals : ndarray (n, 3)
-            [m]; the height is that of the tape circle level with the crown.
+        At positions x along the wheel, in its own axes, and arc lengths s on its profile, (n,) [m];
+        the height is that of the tape circle level with the crown.
 
         Raises
         ------

@@ -38,18 +38,9 @@ class PointLine:
 
 
 def point_line(lines: Array, quadrature: Quadrature) -> PointLine:
-    """Contact points along one direction.
+    """Contact points along one direction of the wheel's tread nodes at increasing lines (m,) [m].
 
-    Parameters
-    ----------
-    lines : ndarray (m,)
-        Increasing coordinates of the wheel's tread nodes in m.
-    quadrature : {"gauss", "nodes"}
-        Two Gauss points an interval, or the nodes with half of the intervals on both sides.
-
-    Returns
-    -------
-    PointLine
+    Two Gauss points an interval, or the nodes with half of the intervals on both sides.
     """
     lines = np.asarray(lines, dtype=float)
     steps, m = np.diff(lines), len(lines)

@@ -38,18 +38,7 @@ def grid_mesh(nodes: Array) -> trimesh.Trimesh:
 
 
 class FacetSearch:
-    """Finds the facets of one surface that meet given boxes.
-
-    Parameters
-    ----------
-    mesh : trimesh.Trimesh
-        Surface; kept as it is.
-
-    Raises
-    ------
-    InputError
-        If the mesh has no facets.
-    """
+    """Finds the facets of one surface that meet given boxes; refuses a surface without facets."""
 
     def __init__(self, mesh: trimesh.Trimesh) -> None:
         import fcl
@@ -61,19 +50,9 @@ class FacetSearch:
         self._object = fcl.CollisionObject(self.model, fcl.Transform())
 
     def meeting(self, boxes: Array, offset: Array | None = None) -> IntArray:
-        """Facets that meet any of some axis-aligned boxes.
+        """Facets that meet any axis-aligned boxes (m, 2, 3), lower and upper corners [m]; sorted.
 
-        Parameters
-        ----------
-        boxes : ndarray (m, 2, 3)
-            Lower and upper corners in m.
-        offset : ndarray (3,), optional
-            Position of the surface relative to the boxes' axes in m.
-
-        Returns
-        -------
-        ndarray of int
-            Triangle numbers, sorted, each once.
+        `offset` (3,) is the position of the surface relative to the boxes' axes [m].
         """
         import fcl
 
@@ -107,10 +86,10 @@ def bounding_volumes(mesh: trimesh.Trimesh) -> fcl.BVHModel:
 class CandidateList:
     """Facets of the upper body that can touch, kept until the bodies have moved (a Verlet list).
 
-    A list made for the approach d holds every facet of the upper body that comes within the
-    padding of the lower body's surface, or has passed through it. It serves all approaches up to
-    ``d + padding``, and is made anew as well when the approach has fallen so far that it is
-    needlessly long.
+    A list made for the approach d holds every facet of the upper body that comes within the padding
+    of the lower body's surface, or has passed through it. It serves all approaches up to ``d +
+    padding``, and is made anew as well when the approach has fallen so far that it is needlessly
+    long; `queries` counts how often.
 
     A point of the upper body that lies below the lower surface stood above it at first touch, an
     approach higher; so the boxes around the lower surface, drawn down by the approach, hold all
@@ -118,22 +97,13 @@ class CandidateList:
 
     Parameters
     ----------
-    wheel : FacetSearch
-        The upper body in its position at first touch: the tread as made by `grid_mesh`, or any
-        triangulated surface.
-    rail : trimesh.Trimesh
-        The lower body's surface, in the same axes.
+    wheel, rail
+        The upper body in its position at first touch, the tread as made by `grid_mesh` or any
+        triangulated surface, and the lower body's surface in the same axes.
     sagitta : float
         Largest distance between facets and smooth surface, both bodies together, in m.
-    padding : float
-        In m.
-    box_size : float
-        Size across of the groups of facets that a box encloses, in m.
-
-    Attributes
-    ----------
-    queries : int
-        How often the list was made.
+    padding, box_size : float
+        Padding, and size across of the groups of facets that a box encloses, in m.
     """
 
     def __init__(
@@ -151,18 +121,11 @@ class CandidateList:
         self.queries = 0
 
     def facets(self, approach: float) -> IntArray:
-        """Triangles of the upper body that can touch at a rigid approach.
+        """Triangles of the upper body that can touch at a rigid approach, sorted.
 
-        Parameters
-        ----------
-        approach : float
-            How far the undeformed upper body stands below the first touch of the smooth
-            surfaces, in m; with irregularity its largest value over the patch.
-
-        Returns
-        -------
-        ndarray of int
-            Sorted; the same object as long as the list is the same.
+        The approach is how far the undeformed upper body stands below the first touch of the smooth
+        surfaces, in m; with irregularity its largest value over the patch. The same object is
+        returned as long as the list is the same.
         """
         if -2 * self._padding <= approach - self._made_for <= self._padding:
             return self._facets

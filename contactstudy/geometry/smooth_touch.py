@@ -45,22 +45,11 @@ class SmoothTouch:
 
 
 def smooth_touch(wheel: PlacedWheel, rail: ProfileCurve, tolerance: float = 1e-15) -> SmoothTouch:
-    """Lower a wheel onto a rail until their smooth surfaces touch.
+    """Lower a wheel onto a rail until their smooth surfaces touch within `tolerance` [m].
 
-    A prismatic rail is touched where the wheel's normal has no component along it, so one curve
-    on the wheel, its contact locus, holds all candidates. Its least distance g from the rail as
-    a function of the travel is driven to zero by Newton's iteration, ``dg/dt = -n_z``.
-
-    Parameters
-    ----------
-    wheel : PlacedWheel
-    rail : ProfileCurve
-    tolerance : float
-        Distance left [m].
-
-    Returns
-    -------
-    SmoothTouch
+    A prismatic rail is touched where the wheel's normal has no component along it, so one curve on
+    the wheel, its contact locus, holds all candidates. Its least distance g from the rail as a
+    function of the travel is driven to zero by Newton's iteration, ``dg/dt = -n_z``.
 
     Raises
     ------

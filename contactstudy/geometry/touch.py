@@ -39,23 +39,11 @@ class FirstTouch:
 def first_touch(
     lower: trimesh.Trimesh, upper: trimesh.Trimesh, tolerance: float = 1e-7
 ) -> FirstTouch:
-    """Lower one body onto another along Z.
+    """Lower one body onto another, both in the same axes [m], along Z.
 
-    FCL's distance between the two surfaces is never larger than the vertical clearance, so
-    lowering by it again and again (conservative advancement) cannot pass the first touch.
-    When the distance is below the tolerance the facets near the touch are compared exactly,
-    in double precision.
-
-    Parameters
-    ----------
-    lower, upper : trimesh.Trimesh
-        Surfaces in the same axes, in m.
-    tolerance : float
-        Distance in m at which the exact comparison takes over.
-
-    Returns
-    -------
-    FirstTouch
+    FCL's distance between the two surfaces is never larger than the vertical clearance, so lowering
+    by it again and again (conservative advancement) cannot pass the first touch. When the distance
+    is below the tolerance [m] the facets near the touch are compared exactly, in double precision.
 
     Raises
     ------
@@ -126,20 +114,11 @@ def _edge(mesh: trimesh.Trimesh, near: Array) -> float:
 
 
 def _clearances(lower: Array, upper: Array) -> tuple[Array, Array]:
-    """Least vertical distance of pairs of triangles over their common plan.
+    """Least vertical distance (m,) of pairs of triangles (m, 3, 3) over their common plan, where.
 
-    The distance is linear over the common plan, a convex polygon, so its least value is at a
-    corner: a vertex of either triangle inside the other, or a crossing of two edges.
-
-    Parameters
-    ----------
-    lower, upper : ndarray (m, 3, 3)
-        Corners of the pairs.
-
-    Returns
-    -------
-    tuple of ndarray (m,), (m, 3)
-        Distance (inf where they do not lie over each other) and the point on the lower one.
+    It is linear over the common plan, a convex polygon, so least at a corner: a vertex of either
+    triangle inside the other, or a crossing of two edges. Inf where they do not lie over each
+    other; the points (m, 3) are on the lower one.
     """
     p, q = lower[:, :, None, :2], upper[:, None, :, :2]
     r, s = np.roll(lower, -1, axis=1)[:, :, None, :2] - p, np.roll(upper, -1, 1)[:, None, :, :2] - q

@@ -15,15 +15,9 @@ from contactstudy.track.meshed import MeshedTrack
 def wheel_points(
     wheel: WheelFlexibility, quadrature: Quadrature = "gauss", geometry: Geometry | None = None
 ) -> ContactPoints:
-    """Contact points of a wheel.
+    """Contact points of a wheel, the whole one, or half of one centred on an upright rail.
 
-    Parameters
-    ----------
-    wheel : WheelFlexibility
-        The whole one, or half of one that stands centred on an upright rail.
-    quadrature : {"gauss", "nodes"}
-    geometry : Geometry, optional
-        The recipe's profiles, centred and upright, when not given.
+    Without a geometry the recipe's profiles, centred and upright.
     """
     geometry = geometry or Geometry.of(wheel.recipe)
     return contact_points(geometry, wheel.x, wheel.y, quadrature, wheel.recipe.symmetric)

@@ -14,11 +14,7 @@ from contactstudy.geometry.placement import Geometry
 from contactstudy.geometry.pose import Pose
 from contactstudy.profiles.curve import ProfileCurve
 from contactstudy.units import UnitError
-from contactstudy.validation import (
-    Parameters,
-    Same,
-    Written,
-)
+from contactstudy.validation import Parameters, Same, Written
 from contactstudy.validation import quantities as q
 from contactstudy.vehicle import WheelColumn
 
@@ -59,16 +55,9 @@ class WheelsetDimensions(Parameters):
 
 @dataclass(frozen=True, eq=False)
 class Wheelset(WheelsetDimensions):
-    """Two equal wheels on an axle over two equal rails.
+    """Two equal wheels on an axle over two equal rails, `radius` at the tape circles [m].
 
-    Parameters
-    ----------
-    wheel, rail : ProfileCurve
-        Profiles, as seen from the track's centre for either side.
-    radius : float
-        Rolling radius at the tape circles [m].
-    rail_inclination, gauge, gauge_depth, flange_backs, tape_line : float
-        See `WheelsetDimensions`.
+    The profiles are those seen from the track's centre for either side.
     """
 
     wheel: ProfileCurve = field(kw_only=True)
@@ -116,14 +105,7 @@ class Wheelset(WheelsetDimensions):
         return float(pose.track_of_rail(rail.point(s))[0])
 
     def pose(self, side: Side, shift: float, yaw: float, roll: float) -> Pose:
-        """Position of one wheel on its rail, Y to the field side.
-
-        Parameters
-        ----------
-        side : {"left", "right"}
-        shift, yaw, roll : float
-            Of the wheelset [m, rad, rad].
-        """
+        """One wheel's position on its rail, Y to the field side, from the wheelset's [m, rad]."""
         sign = 1.0 if side == "right" else -1.0
         # tape circle's lowest point, from the middle of the wheelset: turned by roll, then by yaw
         y = sign * self.half * math.cos(roll) - self.radius * math.sin(roll)

@@ -18,22 +18,10 @@ _RESOLVED = 10 * LOOK
 
 
 def first_press(bodies: Bodies, load: float, join: float) -> tuple[float, list[Pressed]]:
-    """Approach of a vertical load within 1 %, and the pressure in every region of overlap.
+    """Approach of a vertical load [N] within 1 %, and the pressure in every region of overlap.
 
-    Parameters
-    ----------
-    bodies : Bodies
-    load : float
-        [N].
-    join : float
-        As in `contactstudy.halfspace.patches.press_wheel` [m].
-
-    Returns
-    -------
-    travel : float
-        From first touch on [m].
-    pressed : list of Pressed
-        Each on 24 by 24 cells.
+    The travel is counted from first touch [m]; each region is pressed on 24 by 24 cells; `join` as
+    in `contactstudy.halfspace.patches.press_wheel` [m].
 
     Raises
     ------

@@ -100,21 +100,15 @@ def contact_modulus(
 
 
 def hertz_contact(load: float, modulus: float, radius_x: float, radius_y: float) -> HertzContact:
-    """Elliptic contact of two smooth bodies.
+    """Elliptic contact of two smooth bodies under a load [N], which may be 0.
 
     Parameters
     ----------
-    load : float
-        [N]; may be 0.
     modulus : float
         E* [N/m^2], see `contact_modulus`.
     radius_x, radius_y : float
         Relative radii of curvature along x and along y, 1/R = 1/R1 + 1/R2 [m]. For a
         cylindrical wheel of 0.43 m on a crown of 0.30 m: 0.43 along the rail, 0.30 across.
-
-    Returns
-    -------
-    HertzContact
 
     Raises
     ------

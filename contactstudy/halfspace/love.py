@@ -17,25 +17,14 @@ from contactstudy.validation import positive, raise_if
 
 
 def love_influence(x: Array, y: Array, width: float, breadth: float, modulus: float) -> Array:
-    """Approach of two half-spaces under unit pressure on one rectangle.
+    """Approach [m/Pa] of two half-spaces under unit pressure on one rectangle.
 
-    With the corners of the rectangle seen from the point,
-    ``pi E* u = f(x+a, y+b) - f(x+a, y-b) - f(x-a, y+b) + f(x-a, y-b)`` and
-    ``f(x, y) = x asinh(y/|x|) + y asinh(x/|y|)``, the double integral of 1/r.
+    With the corners of the rectangle seen from the point, ``pi E* u = f(x+a, y+b) - f(x+a, y-b) -
+    f(x-a, y+b) + f(x-a, y-b)`` and ``f(x, y) = x asinh(y/|x|) + y asinh(x/|y|)``, the double
+    integral of 1/r.
 
-    Parameters
-    ----------
-    x, y : ndarray (...)
-        Place relative to the rectangle's centre [m].
-    width, breadth : float
-        Sides 2a along x and 2b along y [m].
-    modulus : float
-        E* of both bodies [Pa]; that of one body gives its own displacement.
-
-    Returns
-    -------
-    ndarray (...)
-        [m/Pa].
+    The places x, y (...) are relative to the rectangle's centre, its sides `width` 2a along x and
+    `breadth` 2b along y [m]; the modulus E* [Pa] of one body gives its own displacement.
     """
 
     def f(x: Array, y: Array) -> Array:
@@ -57,14 +46,7 @@ class GridTooSmallError(InputError):
 class LoveGrid:
     """Equal rectangles that fill a larger one; products with the influence matrix by FFT.
 
-    Parameters
-    ----------
-    shape : tuple of int
-        Cells along x and along y.
-    width, breadth : float
-        Sides of a cell [m].
-    modulus : float
-        E* [Pa].
+    The shape counts cells along x and along y; their sides are in m, the modulus E* in Pa.
     """
 
     shape: tuple[int, int]
@@ -121,25 +103,14 @@ def contact_pressure(
     tolerance: float = 1e-8,
     max_iterations: int = 2000,
 ) -> Array:
-    """Pressure of frictionless unilateral contact of two half-spaces.
+    """Pressure (nx, ny) [Pa] of frictionless unilateral contact of two half-spaces.
 
-    ``w = gap + K p, p >= 0, w >= 0, p w = 0`` by projected conjugate gradients: I. A. Polonsky,
-    L. M. Keer, Wear 231 (1999) 206-219, with the approach given in place of the load.
+    ``w = gap + K p, p >= 0, w >= 0, p w = 0`` by projected conjugate gradients: I. A. Polonsky, L.
+    M. Keer, Wear 231 (1999) 206-219, with the approach given in place of the load.
 
-    Parameters
-    ----------
-    grid : LoveGrid
-    gap : ndarray (nx, ny)
-        Gap of the undeformed surfaces, negative where they overlap [m].
-    start : ndarray (nx, ny), optional
-        First guess of the pressure [Pa].
-    tolerance : float
-        Gap left in the contact, relative to the deepest overlap.
-
-    Returns
-    -------
-    ndarray (nx, ny)
-        [Pa], zero outside the contact.
+    The gap (nx, ny) of the undeformed surfaces is negative where they overlap [m]; `start` is a
+    first guess of the pressure. The tolerance is the gap left in the contact, relative to the
+    deepest overlap.
 
     Raises
     ------

@@ -36,17 +36,9 @@ class CellGrid:
     def spanning(
         cls, bodies: "Bodies", angle: Span, s: Span, cells: int, side: float | None
     ) -> "CellGrid":
-        """Cells that fill a range of angles and arc lengths.
+        """Cells that fill a range of angles and arc lengths, lower and upper ends [rad], [m].
 
-        Parameters
-        ----------
-        bodies : Bodies
-        angle, s : tuple of float
-            Lower and upper end [rad], [m].
-        cells : int
-            Number of cells each way.
-        side : float, optional
-            Side of the cells in place of their number [m].
+        As many each way as `cells`, or of the given side [m].
         """
         radius = float(bodies.local_radius(np.array([0.5 * (s[0] + s[1])]))[0])
         long, wide = radius * (angle[1] - angle[0]), s[1] - s[0]
@@ -65,14 +57,7 @@ class CellGrid:
 
 @dataclass(frozen=True, eq=False)
 class Bodies:
-    """A wheel over a rail, from their first touch on.
-
-    Parameters
-    ----------
-    geometry : Geometry
-    modulus : float
-        E* of both bodies [Pa].
-    """
+    """A wheel over a rail, from their first touch on; E* of both bodies [Pa]."""
 
     geometry: Geometry
     modulus: float
@@ -97,18 +82,10 @@ class Bodies:
         return np.arange(max(close[0] - 10 * LOOK, s0), min(close[-1] + 10 * LOOK, s1), LOOK)
 
     def regions(self, travel: float, join: float, cells: int) -> list[CellGrid]:
-        """Grids over the regions where the wheel lowered from first touch overlaps the rail.
+        """Grids over the regions where the wheel, `travel` [m] below touch, overlaps the rail.
 
-        Pressure opens gaps everywhere, so contact lies inside the overlap.
-
-        Parameters
-        ----------
-        travel : float
-            [m].
-        join : float
-            Regions closer than this along the profile share a grid [m].
-        cells : int
-            Cells each way.
+        Pressure opens gaps everywhere, so contact lies inside the overlap. Regions closer than
+        `join` along the profile share a grid [m] of as many cells each way as `cells`.
         """
         s = self._near
         facing = self.geometry.on_locus(s, travel)

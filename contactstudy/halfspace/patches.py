@@ -37,10 +37,8 @@ def press_wheel(
 
     Parameters
     ----------
-    geometry : Geometry
-        Wheel and rail.
     load : float
-        Vertical resultant of all patches [N].
+        Vertical resultant of all patches [N], met within the relative tolerance.
     modulus : float
         E* of both bodies [Pa].
     cells : int
@@ -49,12 +47,6 @@ def press_wheel(
         Side of the cells in place of their number [m]; a patch has three cells across at least.
     join : float
         Regions of overlap closer than this along the profile are solved together [m].
-    tolerance : float
-        Of the load, relative.
-
-    Returns
-    -------
-    WheelPress
 
     Raises
     ------

@@ -36,22 +36,10 @@ class SurfacePressure:
 
 
 def bilinear_pressure(x: Array, y: Array, nodal: Array, parts: int = 4) -> SurfacePressure:
-    """Grid of rectangles for a pressure given at nodes and bilinear between them.
+    """Grid of rectangles for pressures (k, m) [Pa] at the nodes of lines (k,), (m,) [m].
 
-    Each facet is cut into `parts` x `parts` rectangles with the mean of the bilinear function
-    on each, so that the resultant is kept.
-
-    Parameters
-    ----------
-    x, y : ndarray (k,), (m,)
-        Grid lines in m, increasing.
-    nodal : ndarray (k, m)
-        In Pa.
-    parts : int
-
-    Returns
-    -------
-    SurfacePressure
+    They are bilinear between the nodes. Each facet is cut into `parts` x `parts` rectangles with
+    the mean of the bilinear function on each, so that the resultant is kept.
     """
     if parts < 1 or nodal.shape != (len(x), len(y)):
         raise InputError(
@@ -64,23 +52,15 @@ def bilinear_pressure(x: Array, y: Array, nodal: Array, parts: int = 4) -> Surfa
 
 
 def recovered_pressure(x: Array, y: Array, nodal: Array, parts: int = 4) -> SurfacePressure:
-    """Pressure whose lumped projection to the nodes is the given one.
+    """Pressure whose lumped projection to the nodes is the given one, with its resultant.
 
     `contactstudy.geometry.points.ContactPoints.nodal_pressure` smooths by the order h^2: for a
-    bilinear field q it gives ``S q``, S the consistent mass matrix over its row sums. So
-    ``q = S^-1 p``, here by the first two terms of Neumann's series, ``q = p + (p - S p)``, which
-    leaves an error of the order h^4 and little of the oscillation of an exact inverse. Beyond the
-    rim of the patch q undershoots zero by a few per cent of the peak, which the depth evens out.
+    bilinear field q it gives ``S q``, S the consistent mass matrix over its row sums. So ``q = S^-1
+    p``, here by the first two terms of Neumann's series, ``q = p + (p - S p)``, which leaves an
+    error of the order h^4 and little of the oscillation of an exact inverse. Beyond the rim of the
+    patch q undershoots zero by a few per cent of the peak, which the depth evens out.
 
-    Parameters
-    ----------
-    x, y, nodal, parts
-        As of `bilinear_pressure`; of the whole patch, not of half a symmetric one.
-
-    Returns
-    -------
-    SurfacePressure
-        With the resultant of the given pressure.
+    Arguments as of `bilinear_pressure`; of the whole patch, not of half a symmetric one.
     """
     smoothed = _projection(x) @ nodal @ _projection(y).T
     return bilinear_pressure(x, y, 2.0 * nodal - smoothed, parts)

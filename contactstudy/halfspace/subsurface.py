@@ -49,19 +49,9 @@ class StressMaximum:
 
 
 def half_space_stress(load: SurfacePressure, points: Array, poisson_ratio: float = 0.3) -> Array:
-    """Stresses in the half-space.
+    """Stresses (n, 6) [Pa] at points (n, 3): x, y, depth in m, the depth above 0, into the body.
 
-    Parameters
-    ----------
-    load : SurfacePressure
-    points : ndarray (n, 3)
-        x, y, depth in m; depth positive into the body, above 0.
-    poisson_ratio : float
-
-    Returns
-    -------
-    ndarray (n, 6)
-        (xx, yy, zz, yz, zx, xy) in Pa in the axes (x, y, depth), tension positive.
+    (xx, yy, zz, yz, zx, xy) in the axes (x, y, depth), tension positive.
 
     Raises
     ------
@@ -123,17 +113,7 @@ def stress_maxima(
     """Largest equivalent stress of von Mises and largest shear stress below the patch.
 
     Looked for on a grid below the loaded rectangles and then on ever finer ones about the best
-    point, at depths from `SHALLOWEST` patch radii down to two.
-
-    Parameters
-    ----------
-    load : SurfacePressure
-    poisson_ratio : float
-
-    Returns
-    -------
-    tuple of StressMaximum
-        (von Mises, maximum shear); zeros without pressure.
+    point, at depths from `SHALLOWEST` patch radii down to two. Zeros without pressure.
     """
     on = load.pressure > 0
     if not on.any():

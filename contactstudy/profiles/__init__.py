@@ -3,11 +3,7 @@
 from contactstudy.profiles.curve import ProfileCurve
 from contactstudy.profiles.named import rail_curve, wheel_curve
 from contactstudy.profiles.rail import RailProfile, rail_profile
-from contactstudy.profiles.section import (
-    SectionProperties,
-    polygon_properties,
-    section_properties,
-)
+from contactstudy.profiles.section import SectionProperties, polygon_properties, section_properties
 from contactstudy.profiles.wheel import WheelProfile, wheel_profile
 from contactstudy.profiles.worn import worn_curve
 

@@ -20,20 +20,12 @@ _ITERATIONS = 100
 class ClosestPoint:
     """Finds arc length and signed distance of the closest points of a curve.
 
-    Every local minimum of the distance that can be the least one is refined by Newton's
-    iteration on ``(c(s) - p) . t(s) = 0``, kept within its bracket; the nearest of all wins.
+    Every local minimum of the distance that can be the least one is refined by Newton's iteration
+    on ``(c(s) - p) . t(s) = 0``, kept within its bracket; the nearest of all wins.
 
-    Parameters
-    ----------
-    name : str
-        For messages.
-    frame : callable
-        Points (n, 2) [m], unit tangents (n, 2) and left curvature (n,) [1/m] at arc lengths (n,);
-        beyond the curve's ends straight on.
-    joints : sequence of float
-        Arc lengths of the ends and of the joints between which the curve is smooth [m].
-    side : float
-        1 if the body lies to the right of the walk (below it), -1 if to the left.
+    The frame goes on straight beyond the curve's ends; between the joints, arc lengths with the
+    ends among them [m], the curve is smooth. `side` is 1 if the body lies to the right of the walk
+    (below it), -1 if to the left.
     """
 
     def __init__(

@@ -71,22 +71,10 @@ class CloudFit:
 def fit_cloud(
     points: Array, shortest: float = 1e-3, name: str = "profile", all_knots: bool = False
 ) -> CloudFit:
-    """Fit a curve to points along which y grows.
+    """Fit a curve to points (n, 2) = (y, z) in any order [m] along which y grows.
 
-    Parameters
-    ----------
-    points : ndarray (n, 2)
-        (y, z) in any order [m].
-    shortest : float
-        Least distance of knots [m]: nothing finer is taken from the points.
-    name : str
-        For messages.
-    all_knots : bool
-        Keep the knots that the points do not ask for; quicker, and enough for residuals.
-
-    Returns
-    -------
-    CloudFit
+    Nothing finer than `shortest`, the least distance of knots [m], is taken from the points. With
+    `all_knots` those are kept that the points do not ask for; quicker, and enough for residuals.
 
     Raises
     ------

@@ -143,22 +143,10 @@ class ProfileCurve:
         return ClosestPoint(self.name, self._frame, joints, self._side)
 
     def project(self, points: Array) -> tuple[Array, Array]:
-        """Closest points of the curve.
+        """Arc lengths (n,) of the points closest to points (n, 2), and signed distances (n,) [m].
 
-        Every local minimum of the distance that can be the least one is refined by Newton's
-        iteration on ``(c(s) - p) . t(s) = 0``, kept within its bracket; the nearest of all wins.
-
-        Parameters
-        ----------
-        points : ndarray (n, 2)
-            (y, z) [m].
-
-        Returns
-        -------
-        s : ndarray (n,)
-            Arc length of the closest point [m]; outside `s_range` on the straight continuation.
-        distance : ndarray (n,)
-            Signed distance, positive outside the body [m].
+        Outside `s_range` the closest point is on the straight continuation; distances are positive
+        outside the body. See `ClosestPoint`.
 
         Raises
         ------
@@ -171,18 +159,6 @@ class ProfileCurve:
 def joined(
     name: str, pieces: Sequence[Piece], zero: float, upper: bool, residual: float = 0.0
 ) -> ProfileCurve:
-    """Curve of given pieces whose arc length is 0 at lateral position `zero`.
-
-    Parameters
-    ----------
-    name, pieces, upper, residual
-        As in `ProfileCurve`.
-    zero : float
-        y [m] where s = 0.
-
-    Returns
-    -------
-    ProfileCurve
-    """
+    """Curve of given pieces whose arc length is 0 at lateral position `zero` [m]."""
     curve = ProfileCurve(name, tuple(pieces), 0.0, upper, residual)
     return ProfileCurve(name, curve.pieces, -float(curve.arc_of_y(zero)), upper, residual)

@@ -9,26 +9,16 @@ import numpy as np
 from contactstudy.arrays import Array
 from contactstudy.profiles.pieces import ArcPiece, LinePiece
 
-Vector = Array
-
 
 @dataclass(frozen=True)
 class Line:
-    """Straight piece of an outline.
-
-    Parameters
-    ----------
-    part : str
-        What it is on the drawing.
-    start, end : tuple of float
-        End points (y, z) in walking order [m].
-    """
+    """Straight piece of an outline, a part of the drawing, from start to end (y, z) [m]."""
 
     part: str
     start: tuple[float, float]
     end: tuple[float, float]
 
-    def y_of_z(self, z: Vector) -> Vector:
+    def y_of_z(self, z: Array) -> Array:
         """Lateral position at height z [m]."""
         (y0, z0), (y1, z1) = self.start, self.end
         return y0 + (z - z0) * ((y1 - y0) / (z1 - z0)) if z1 != z0 else np.full_like(z, y0)
@@ -43,7 +33,7 @@ class Line:
         """The piece by arc length."""
         return LinePiece(self.start, self.end)
 
-    def points(self, chord_error: float) -> Vector:
+    def points(self, chord_error: float) -> Array:
         """Both ends, shape (2, 2) [m]; a line has no chord error."""
         return np.array([self.start, self.end])
 
@@ -70,7 +60,7 @@ class Arc:
     start: tuple[float, float]
     end: tuple[float, float]
 
-    def y_of_z(self, z: Vector) -> Vector:
+    def y_of_z(self, z: Array) -> Array:
         """Lateral position at height z [m]; right half, where the outward normal has y >= 0."""
         h = z - self.centre[1]
         return self.centre[0] + np.sign(self.radius) * np.sqrt(
@@ -82,9 +72,10 @@ class Arc:
         """The piece by arc length."""
         return ArcPiece(self.centre, self.start, self.end)
 
-    def points(self, chord_error: float) -> Vector:
+    def points(self, chord_error: float) -> Array:
         """Points (n, 2) [m] from start to end whose chords stay within ``chord_error`` [m]."""
-        a, b = (np.arctan2(p[1] - self.centre[1], p[0] - self.centre[0]) for p in self._ends())
+        ends = self.start, self.end
+        a, b = (np.arctan2(p[1] - self.centre[1], p[0] - self.centre[0]) for p in ends)
         sweep = (b - a + np.pi) % (2.0 * np.pi) - np.pi
         step = 2.0 * np.arccos(1.0 - chord_error / abs(self.radius))
         n = max(int(np.ceil(abs(sweep) / step)), 1)
@@ -95,9 +86,6 @@ class Arc:
         points[0], points[-1] = self.start, self.end
         return points
 
-    def _ends(self) -> tuple[tuple[float, float], tuple[float, float]]:
-        return self.start, self.end
-
 
 Segment = Line | Arc
 
@@ -107,8 +95,8 @@ class _Carrier:
     """Infinite line (radius 0: point, unit direction) or full circle (point is the centre)."""
 
     part: str
-    point: Vector
-    direction: Vector
+    point: Array
+    direction: Array
     radius: float  # signed
 
     def offset(self, distance: float) -> "_Carrier":
@@ -118,14 +106,14 @@ class _Carrier:
             return _Carrier(self.part, self.point + distance * inward, self.direction, 0.0)
         return _Carrier(self.part, self.point, self.direction, self.radius - distance)
 
-    def nearest(self, p: Vector) -> Vector:
+    def nearest(self, p: Array) -> Array:
         if self.radius == 0.0:
             return self.point + self.direction * float((p - self.point) @ self.direction)
         d = p - self.point
         return self.point + abs(self.radius) * d / np.linalg.norm(d)
 
 
-def _unit(v: Sequence[float]) -> Vector:
+def _unit(v: Sequence[float]) -> Array:
     d = np.asarray(v, dtype=float)
     return d / np.linalg.norm(d)
 
@@ -157,7 +145,7 @@ def _carrier(element: Mapping[str, Any], last: _Carrier | None) -> _Carrier:
     return _Carrier(part, np.array(element["centre"], float), zero, radius)
 
 
-def _joint(a: _Carrier, b: _Carrier) -> Vector:
+def _joint(a: _Carrier, b: _Carrier) -> Array:
     """Point where two carriers touch each other."""
     if a.radius == 0.0:
         return a.nearest(b.point)
@@ -168,7 +156,7 @@ def _joint(a: _Carrier, b: _Carrier) -> Vector:
     return small.point + abs(small.radius) * _unit(list(small.point - big.point))
 
 
-def _corner(a: _Carrier, b: _Carrier) -> Vector:
+def _corner(a: _Carrier, b: _Carrier) -> Array:
     """Intersection of a line with a line, or with the circle, on the side walked first."""
     if b.radius == 0.0 and a.radius == 0.0:
         t = np.linalg.solve(np.stack([a.direction, -b.direction], axis=1), b.point - a.point)
@@ -181,18 +169,10 @@ def _corner(a: _Carrier, b: _Carrier) -> Vector:
 
 
 def resolve_path(path: Sequence[Mapping[str, Any]]) -> tuple[Segment, ...]:
-    """Arcs and lines of a half outline from its drawing.
+    """Connected arcs and lines [m] of a half outline from its drawing, fillets included.
 
-    Parameters
-    ----------
-    path : sequence of mapping
-        Elements in the language described in ``meshes/profiles/60E1.toml`` [mm]; clockwise on
-        the right half, from (0, 0) to the axis of symmetry at the foot.
-
-    Returns
-    -------
-    tuple of Line or Arc
-        Connected pieces [m], fillets included.
+    The elements are in the language described in ``meshes/profiles/60E1.toml`` [mm]; clockwise on
+    the right half, from (0, 0) to the axis of symmetry at the foot.
     """
     pieces: list[Segment] = []
     carriers: list[_Carrier] = []
@@ -220,7 +200,7 @@ def resolve_path(path: Sequence[Mapping[str, Any]]) -> tuple[Segment, ...]:
     return tuple(pieces)
 
 
-def _piece(carrier: _Carrier, start: Vector, end: Vector) -> Segment:
+def _piece(carrier: _Carrier, start: Array, end: Array) -> Segment:
     a, b, c = ((float(p[0]) * 1e-3, float(p[1]) * 1e-3) for p in (start, end, carrier.point))
     if carrier.radius == 0.0:
         return Line(carrier.part, a, b)

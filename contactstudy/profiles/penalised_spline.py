@@ -17,18 +17,10 @@ _BIN = 1e-4  # length [m] over which points are taken together where knots are c
 
 
 def penalised_spline(p: Array, s: Array, knots: Array, wavelength: float) -> BSpline:
-    """Least-squares spline through points at given arc lengths.
+    """Least-squares spline through points (n, 2) = (y, z) at given arc lengths (n,) [m].
 
-    Parameters
-    ----------
-    p : ndarray (n, 2)
-        (y, z) [m].
-    s : ndarray (n,)
-        Their arc lengths [m].
-    knots : ndarray (k,)
-        Ends and knots between [m].
-    wavelength : float
-        At which the penalty on the third derivative halves a wave [m].
+    The knots (k,) include the ends; at `wavelength` the penalty on the third derivative halves a
+    wave [m].
     """
     from scipy.interpolate import BSpline
 
@@ -68,16 +60,8 @@ def needed_knots(p: Array, s: Array, knots: Array, scatter: float, shortest: flo
 
     A knot is a jump of the third derivative, ``j = J c`` with the coefficients c. Without it the
     sum of squares grows by ``|j|^2 / (J G^-1 J^T)``, G being the Gram matrix. By Schwarz's
-    criterion a knot is worth its freedom if that exceeds ``sigma^2 log n``.
-
-    Parameters
-    ----------
-    p, s, knots
-        As in `penalised_spline`.
-    scatter : float
-        Standard deviation sigma of the points [m].
-    shortest : float
-        Wavelength of the penalty [m].
+    criterion a knot is worth its freedom if that exceeds ``sigma^2 log n``, sigma the points'
+    standard deviation `scatter`; `shortest` is the wavelength of the penalty [m].
     """
     from scipy.interpolate import BSpline
 

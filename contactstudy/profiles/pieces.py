@@ -34,13 +34,7 @@ class Piece(Protocol):
 
 @dataclass(frozen=True)
 class LinePiece:
-    """Straight piece.
-
-    Parameters
-    ----------
-    start, end : tuple of float
-        End points (y, z) in walking order [m].
-    """
+    """Straight piece between end points (y, z) in walking order [m]."""
 
     start: tuple[float, float]
     end: tuple[float, float]
@@ -64,15 +58,7 @@ class LinePiece:
 
 @dataclass(frozen=True)
 class ArcPiece:
-    """Circular piece, shorter than half a circle.
-
-    Parameters
-    ----------
-    centre : tuple of float
-        Centre (y, z) [m].
-    start, end : tuple of float
-        End points (y, z) in walking order [m].
-    """
+    """Circular piece, shorter than half a circle; centre, start and end (y, z) [m]."""
 
     centre: tuple[float, float]
     start: tuple[float, float]
@@ -128,15 +114,7 @@ class Path(Protocol):
 
 @dataclass(frozen=True)
 class PolynomialPath:
-    """Graph of a polynomial, ``z = unit * sum_k c_k (y/unit)^k`` with u = y.
-
-    Parameters
-    ----------
-    coefficients : tuple of float
-        c_k, in powers of `unit`.
-    unit : float
-        Length unit of the coefficients [m].
-    """
+    """Graph of a polynomial, ``z = unit * sum_k c_k (y/unit)^k`` with u = y; the unit in m."""
 
     coefficients: tuple[float, ...]
     unit: float = 1e-3
@@ -168,13 +146,7 @@ class PolynomialPath:
 
 @dataclass(frozen=True)
 class SplinePath:
-    """Plane spline of a parameter u.
-
-    Parameters
-    ----------
-    spline : BSpline
-        With values (y, z) [m]; twice continuously differentiable.
-    """
+    """Plane spline of a parameter u with values (y, z) [m], twice continuously differentiable."""
 
     spline: BSpline
 
@@ -192,16 +164,8 @@ class ParametricPiece:
     """Piece of a curve c(u) for u from `begin` to `end` > `begin`.
 
     Points, tangents and curvature are those of c exactly; only the arc length at which they are
-    found is interpolated (error below 1e-12 m for panels well below the radius of curvature).
-
-    Parameters
-    ----------
-    path : Path
-        The curve.
-    begin, end : float
-        Range of u.
-    panels : int
-        Panels of the table u(t).
+    found is interpolated, in a table u(t) of `panels` (error below 1e-12 m for panels well below
+    the radius of curvature).
     """
 
     path: Path

@@ -100,17 +100,9 @@ class RailProfile:
         }
 
     def half_width(self, z: ArrayLike) -> Array:
-        """Half width of the outline at height z.
+        """Half width of the outline at heights z from ``-height`` to 0 [m].
 
-        Parameters
-        ----------
-        z : array_like
-            Heights, from ``-height`` to 0 [m].
-
-        Returns
-        -------
-        ndarray
-            y of the right half of the outline [m]; at the very foot the end of its rounding.
+        At the very foot the end of its rounding.
 
         Raises
         ------
@@ -173,10 +165,7 @@ def _running_surface(name: str, pieces: tuple[Segment, ...]) -> ProfileCurve:
 def running_surface(name: str) -> ProfileCurve:
     """Running surface of a drawn rail with both side faces, by arc length from the crown.
 
-    Parameters
-    ----------
-    name : str
-        One of ``profiles.rail.NAMES``, or a rail of which only the head is drawn.
+    One of ``profiles.rail.NAMES``, or a rail of which only the head is drawn.
 
     Raises
     ------
@@ -197,12 +186,7 @@ def _drawing(name: str) -> dict[str, Any]:
 
 @lru_cache(maxsize=8)
 def rail_profile(name: str = "60E1") -> RailProfile:
-    """Rail profile by its standard's name.
-
-    Parameters
-    ----------
-    name : str
-        One of ``profiles.rail.NAMES``.
+    """Rail profile by its standard's name, one of ``profiles.rail.NAMES``.
 
     Raises
     ------

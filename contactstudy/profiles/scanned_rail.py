@@ -23,22 +23,10 @@ RAIL_DEPTH = 0.03
 def fit_rail_head(
     points: Array, normals: Array, middle: float = 0.0, shortest: float = 1e-3, name: str = "rail"
 ) -> ScanFit:
-    """Prism near X through the points of a scanned rail head.
+    """Prism near X through points (n, 3) of a scanned rail head with outward unit normals.
 
-    Parameters
-    ----------
-    points, normals : ndarray (n, 3)
-        Vertices, X along the rail, Y to the field side, Z up [m], and outward unit normals.
-    middle : float
-        Y of the rail's middle plane, half way along the scan [m].
-    shortest : float
-        Least distance of the curve's knots [m].
-    name : str
-        For messages.
-
-    Returns
-    -------
-    ScanFit
+    X along the rail, Y to the field side, Z up [m]; `middle` is Y of the rail's middle plane, half
+    way along the scan, `shortest` the least distance of the curve's knots [m].
 
     Raises
     ------

@@ -25,21 +25,9 @@ def fit_wheel_tread(
 ) -> ScanFit:
     """Surface of revolution about an axis near Y through the points of a scanned tread.
 
-    The axis is horizontal: about X it cannot be told from the profile's own slope.
-
-    Parameters
-    ----------
-    points, normals : ndarray (n, 3)
-        Vertices, X along the rail, Y to the field side, Z up, tread down or all round [m], and
-        outward unit normals.
-    tape : float
-        Y of the tape circle [m].
-    shortest, name
-        As in `contactstudy.profiles.scanned_rail.fit_rail_head`.
-
-    Returns
-    -------
-    ScanFit
+    The axis is horizontal: about X it cannot be told from the profile's own slope. Points and
+    normals as in `contactstudy.profiles.scanned_rail.fit_rail_head`, tread down or all round;
+    `tape` is Y of the tape circle [m].
 
     Raises
     ------

@@ -72,20 +72,11 @@ def section_properties(
 ) -> SectionProperties:
     """Integrals and shear coefficients over a conforming mesh of bilinear quadrilaterals.
 
-    The area integrals are exact for the meshed section. The shear coefficients are Cowper's
-    (1966), from Saint-Venant's flexure function computed on the same mesh.
+    The area integrals are exact for the meshed section. The shear coefficients are Cowper's (1966),
+    from Saint-Venant's flexure function computed on the same mesh.
 
-    Parameters
-    ----------
-    nodes : array_like, shape (n, 2)
-        Coordinates (y, z) [m].
-    quads : array_like of int, shape (m, 4)
-        Corner nodes, counter-clockwise.
-    poisson_ratio : float
-        Poisson's ratio [-].
-    symmetric : bool
-        True if the mesh is the half y >= 0 of a section symmetric about y = 0; the properties
-        are those of the whole.
+    The nodes (n, 2) are (y, z) [m]; quads (m, 4) turn counter-clockwise. A symmetric mesh is the
+    half y >= 0 of a section symmetric about y = 0; the properties are those of the whole.
 
     Raises
     ------

@@ -37,14 +37,7 @@ _TABLES = ("rim", "web", "hub")
 def wheel_dimensions(section: str = DEFAULT) -> WheelDimensions:
     """Dimensions of a wheel from its cross-section file.
 
-    Parameters
-    ----------
-    section : str
-        Name of a shipped wheel, or the path of a file like ``meshes/wheels/straight_860.toml``.
-
-    Returns
-    -------
-    WheelDimensions
+    The name of a shipped wheel, or the path of a file like ``meshes/wheels/straight_860.toml``.
 
     Raises
     ------

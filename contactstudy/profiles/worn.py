@@ -78,17 +78,7 @@ def worn_curve(
 def fitted_curve(
     points: Array, body: Body, smoothing: float = 1e-3, name: str = "worn profile"
 ) -> ProfileCurve:
-    """Smooth profile through points (n, 2) = (y, z) along which y grows [m].
-
-    Parameters
-    ----------
-    points : ndarray (n, 2)
-        [m].
-    body, smoothing
-        As in `worn_curve`.
-    name : str
-        Name of the curve.
-    """
+    """Smooth profile through points (n, 2) = (y, z) along which y grows [m], as in `worn_curve`."""
     from scipy.interpolate import BSpline
 
     fit = fit_cloud(points, smoothing, name)

@@ -5,7 +5,6 @@ import numpy as np
 from contactstudy.arrays import Array, BoolArray, IntArray
 from contactstudy.scans.scan import Scan, developed
 
-_SHOWN = 3
 _NEAR = 1e-3  # distance from the fitted surface [m] within which an edge belongs to it
 
 
@@ -13,17 +12,11 @@ def uncovered(scan: Scan, x: float, s: float, half_length: float, half_width: fl
     """Complaint about a hole in the facets around a place, "" where they cover it.
 
     A surface without an edge of its own within a zone covers all of the zone or nothing of it; so
-    the zone is covered if no edge with one triangle only passes through it and its centre lies
-    in a triangle.
+    the zone is covered if no edge with one triangle only passes through it and its centre lies in a
+    triangle.
 
-    Parameters
-    ----------
-    scan : Scan
-    x, s : float
-        Centre of the zone: along the rail, or the tape circle, from the scan's origin, and arc
-        length on the generating curve [m].
-    half_length, half_width : float
-        Half its size along x and s [m].
+    The centre is x along the rail, or the tape circle, from the scan's origin, and the arc length s
+    on the generating curve [m]; the zone reaches half its size to both sides [m].
     """
     mesh = scan.mesh
     zone = (

@@ -26,21 +26,8 @@ def faults(
 ) -> list[str]:
     """Everything that makes a surface unusable, one sentence a kind with count and places.
 
-    Parameters
-    ----------
-    mesh : trimesh.Trimesh
-        In m, equal vertices joined.
-    body : {"rail", "wheel"}
-        A rail is looked at from above, a wheel from below.
-    unit : float
-        The file's length unit in m.
-    unit_name : str
-        Its name.
-
-    Returns
-    -------
-    list of str
-        Nothing if the surface is sound.
+    The mesh is in m, equal vertices joined; `unit` is the file's length unit in m. A rail is looked
+    at from above, a wheel from below.
     """
     centres = np.asarray(mesh.triangles_center, dtype=float) / unit
 

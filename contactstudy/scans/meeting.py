@@ -54,20 +54,9 @@ def meeting(
 ) -> Meeting:
     """First touch of two bodies, and whether the scanned ones have facets all around it.
 
-    Parameters
-    ----------
-    rail, wheel : Scan or ProfileCurve
-        The bodies; a scan touches half way along it (rail) or at its lowest circle (wheel).
-    radius : float
-        Rolling radius at the tape circle [m].
-    pose : Pose
-        Position of the wheel.
-    half_length, half_width : float
-        Half the size along and across of the zone that must be covered by facets [m].
-
-    Returns
-    -------
-    Meeting
+    A scan touches half way along it (rail) or at its lowest circle (wheel). Half the size along and
+    across of the zone that must be covered by facets, and the rolling radius at the tape circle,
+    are in m.
 
     Raises
     ------

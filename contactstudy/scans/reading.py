@@ -27,21 +27,10 @@ _SIZES = {
 
 
 def read_mesh(path: str | Path, unit: str, body: Body) -> trimesh.Trimesh:
-    """Surface of a file, its equal vertices joined.
+    """Surface [m] of an STL (text or binary), PLY or OBJ file, its equal vertices joined.
 
-    Parameters
-    ----------
-    path : str or Path
-        An STL (text or binary), PLY or OBJ file; all its parts together.
-    unit : str
-        Length unit of the file, one of `UNITS`.
-    body : {"rail", "wheel"}
-        What it should be: X along the rail, Y to the field side, Z up.
-
-    Returns
-    -------
-    trimesh.Trimesh
-        In m, with the file's own axes and triangles.
+    All its parts together with their triangles, in the file's own axes: X along the rail, Y to the
+    field side, Z up.
 
     Raises
     ------

@@ -78,14 +78,9 @@ def read_scan(
     origin : float
         Y in the scan of the rail's middle plane (half way along the scan) or of the wheel's tape
         circle (where it is lowest) [m].
-    smoothing : float
-        Least distance of the fitted curve's knots [m].
-    residual_limit : float
-        Largest allowed root mean square of the residual [m].
-
-    Returns
-    -------
-    Scan
+    smoothing, residual_limit : float
+        Least distance of the fitted curve's knots, and largest allowed root mean square of the
+        residual [m].
 
     Raises
     ------
@@ -127,16 +122,10 @@ def read_scan(
 
 
 def developed(scan: Scan, points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Places on the fitted surface of points (n, 3) in its own axes.
+    """Places on the fitted surface of points (n, 3) in its own axes, each (n,) [m].
 
-    Returns
-    -------
-    x : ndarray (n,)
-        Along the rail, or along the wheel's tape circle from its lowest point [m].
-    s : ndarray (n,)
-        Arc length on the generating curve [m].
-    distance : ndarray (n,)
-        Outwards from the surface [m].
+    Along the rail, or along the wheel's tape circle from its lowest point; arc length on the
+    generating curve; distance outwards from the surface.
     """
     if scan.body == "rail":
         s, distance = scan.curve.project(points[:, 1:])

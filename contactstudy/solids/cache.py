@@ -68,7 +68,6 @@ def cached(body: CachedBody[Made], store: Store | None = None) -> Made:
 
     Parameters
     ----------
-    body : CachedBody
     store : Store, optional
         By default `cache_store`.
 

@@ -27,7 +27,6 @@ class RailCell:
 
     Attributes
     ----------
-    recipe : CellRecipe
     stiffness, mass : ndarray (nd, nd)
         In N/m and kg.
     surface_y, surface_arc : ndarray (ny,)
@@ -97,14 +96,6 @@ def section_of(recipe: CellRecipe) -> tuple[SectionMesh, ExtrudedSlice, SectionR
 
 def condense(recipe: CellRecipe) -> RailCell:
     """Condense one cell of a rail.
-
-    Parameters
-    ----------
-    recipe : CellRecipe
-
-    Returns
-    -------
-    RailCell
 
     Raises
     ------

@@ -66,12 +66,7 @@ def repeat(piece: Slice, count: int) -> Slice:
 class BlockTridiagonal:
     """Cholesky factor of a symmetric positive definite block-tridiagonal matrix.
 
-    Parameters
-    ----------
-    diagonal : sequence of ndarray
-        Diagonal blocks, block i of shape (n_i, n_i).
-    upper : sequence of ndarray
-        Blocks (i, i+1), one less than the diagonal ones, of shape (n_i, n_{i+1}).
+    Of its diagonal blocks (n_i, n_i) and the blocks (i, i+1) above them, (n_i, n_{i+1}).
 
     Raises
     ------
@@ -108,19 +103,10 @@ class BlockTridiagonal:
 def chain_blocks(
     slices: Sequence[Slice], first: Array | None = None, last: Array | None = None
 ) -> tuple[list[Array], list[Array]]:
-    """Blocks (diagonal, upper) of a chain, with extra stiffness on its two end planes.
+    """Blocks (diagonal, upper) of a chain, arguments of `BlockTridiagonal`.
 
-    Parameters
-    ----------
-    slices : sequence of Slice
-        Pieces in order; plane i lies before piece i.
-    first, last : ndarray (n, n) or None
-        Stiffness of what lies beyond the end planes, added to them.
-
-    Returns
-    -------
-    tuple of (list of ndarray, list of ndarray)
-        Arguments of `BlockTridiagonal`.
+    Plane i lies before piece i; `first` and `last` (n, n) are the stiffness of what lies beyond the
+    end planes, added to them.
     """
     diagonal = [s.aa for s in slices] + [slices[-1].bb]
     for i in range(1, len(slices)):

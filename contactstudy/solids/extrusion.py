@@ -42,21 +42,7 @@ def extrude(
     poisson_ratio: float,
     density: float,
 ) -> ExtrudedSlice:
-    """Matrices of one extruded slice.
-
-    Parameters
-    ----------
-    section : SectionMesh
-        Mesh of the plane (y, z).
-    thickness : float
-        Length of the slice along X in m.
-    youngs_modulus, poisson_ratio, density : float
-        Material, in Pa, 1 and kg/m^3.
-
-    Returns
-    -------
-    ExtrudedSlice
-    """
+    """Matrices of a slice, the plane (y, z) extruded along X by a thickness [m]; all in SI."""
     n = len(section.nodes)
     plane = np.c_[np.zeros(n), section.nodes]
     # hexahedron: corners 0 3 7 4 on the first plane, 1 2 6 5 on the second, counter-clockwise

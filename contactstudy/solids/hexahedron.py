@@ -30,19 +30,9 @@ GAUSS = _CORNERS / np.sqrt(3.0)
 
 
 def elasticity_matrix(youngs_modulus: float, poisson_ratio: float) -> Array:
-    """Isotropic elasticity matrix for the strains (xx, yy, zz, 2yz, 2zx, 2xy).
+    """Isotropic elasticity matrix (6, 6) [Pa] for the strains (xx, yy, zz, 2yz, 2zx, 2xy).
 
-    Parameters
-    ----------
-    youngs_modulus : float
-        E in Pa, positive.
-    poisson_ratio : float
-        nu, between -1 and 0.5 exclusive.
-
-    Returns
-    -------
-    ndarray (6, 6)
-        Stress in Pa for unit strain.
+    E [Pa] must be positive, nu lie between -1 and 0.5 exclusive.
 
     Raises
     ------
@@ -105,15 +95,10 @@ def _jacobians(coordinates: Array, gradients: Array) -> tuple[Array, Array]:
 def strain_operators(coordinates: Array) -> tuple[Array, Array, Array]:
     """Strains at the Gauss points for unit corner displacements and unit bubbles.
 
-    Parameters
-    ----------
-    coordinates : ndarray (m, 8, 3)
-        Corner coordinates in m.
-
     Returns
     -------
     nodal : ndarray (m, 8, 6, 24)
-        B of ``strain = B u``.
+        B of ``strain = B u``, of corners (m, 8, 3) [m].
     bubbles : ndarray (m, 8, 6, 9)
         H of the three quadratic bubble modes of each displacement component.
     determinant : ndarray (m, 8)
@@ -141,24 +126,12 @@ def strain_operators(coordinates: Array) -> tuple[Array, Array, Array]:
 def hex_stiffness(
     coordinates: Array, youngs_modulus: float, poisson_ratio: float, incompatible: bool = True
 ) -> Array:
-    """Element stiffness matrices.
+    """Element stiffness matrices (m, 24, 24) [N/m] of corners (m, 8, 3) [m], E in Pa.
 
-    Parameters
-    ----------
-    coordinates : ndarray (m, 8, 3)
-        Corner coordinates in m.
-    youngs_modulus, poisson_ratio : float
-        Elastic constants, E in Pa.
-    incompatible : bool
-        Add the three quadratic bubble modes of each displacement component (Wilson, with the
-        correction of Taylor, Beresford and Wilson 1976, Int. J. Numer. Meth. Eng. 10:1211, so
-        that the patch test is passed). They remove the shear locking of the plain element in
-        bending and cost nothing after the condensation.
-
-    Returns
-    -------
-    ndarray (m, 24, 24)
-        Stiffness in N/m.
+    The incompatible ones add the three quadratic bubble modes of each displacement component
+    (Wilson, with the correction of Taylor, Beresford and Wilson 1976, Int. J. Numer. Meth. Eng.
+    10:1211, so that the patch test is passed). They remove the shear locking of the plain element
+    in bending and cost nothing after the condensation.
 
     Raises
     ------
@@ -178,20 +151,7 @@ def hex_stiffness(
 
 
 def hex_mass(coordinates: Array, density: float) -> Array:
-    """Consistent element mass matrices.
-
-    Parameters
-    ----------
-    coordinates : ndarray (m, 8, 3)
-        Corner coordinates in m.
-    density : float
-        Mass density in kg/m^3.
-
-    Returns
-    -------
-    ndarray (m, 24, 24)
-        Mass in kg.
-    """
+    """Consistent mass matrices (m, 24, 24) [kg] of corners (m, 8, 3) [m], density in kg/m^3."""
     coordinates = np.asarray(coordinates, dtype=float)
     N, dN = _shape(GAUSS)
     _, det = _jacobians(coordinates, dN)

@@ -10,29 +10,14 @@ from contactstudy.solids.window import WindowResponse
 def interface_basis(
     response: WindowResponse, rows: SectionRows, axial: BoolArray, count: int
 ) -> Array:
-    """Basis of the displacements of an interface plane.
+    """Basis (n, count) of the displacements of an interface plane.
 
-    The first columns are the rigid motions of the section. The others are the proper
-    orthogonal modes (in the area-weighted product) of the static responses to contact and
-    foot loads at least half a cell away: loads nearer by would fill the basis with their
-    local dents, which belong to the residual flexibility.
-
-    Parameters
-    ----------
-    response : WindowResponse
-        Responses of a window of cells.
-    rows : SectionRows
-        Functionals of a plane.
-    axial : ndarray of bool (n,)
-        Degrees of freedom along X, which change sign in a reflection in x.
-    count : int
-        Columns wanted.
-
-    Returns
-    -------
-    ndarray (n, count)
-        Rigid motions first; the others orthonormal and orthogonal to them in the weighted
-        product, so that the mean vertical displacement of a plane is its second coordinate.
+    The first columns are the rigid motions of the section. The others are the proper orthogonal
+    modes (in the area-weighted product) of the static responses to contact and foot loads at least
+    half a cell away: loads nearer by would fill the basis with their local dents, which belong to
+    the residual flexibility. They are orthonormal and orthogonal to the rigid motions in that
+    product, so that the mean vertical displacement of a plane is its second coordinate. The `axial`
+    (n,) degrees of freedom, along X, change sign in a reflection in x.
     """
     planes, n_surface = response.interfaces, response.centre.shape[2]
     n_slices = (response.surface.shape[0] - 1) // 2

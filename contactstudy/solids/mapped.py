@@ -22,16 +22,9 @@ def graded(length: float, first: float, growth: float, largest: float) -> Array:
 
 @dataclass(frozen=True)
 class Grading:
-    """Element sizes of a section, fine on the surface in contact.
+    """Element sizes of a section: `size` in the fine part, along its surface and in depth [m].
 
-    Parameters
-    ----------
-    size : float
-        In the fine part, along the surface and in depth [m].
-    coarse : float
-        Largest far away [m].
-    growth : float
-        Ratio of neighbouring sizes.
+    They grow by the ratio `growth` up to `coarse` far away [m].
     """
 
     size: float

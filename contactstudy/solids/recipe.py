@@ -3,16 +3,7 @@
 from dataclasses import dataclass
 from typing import Annotated
 
-from contactstudy.validation import (
-    Above,
-    AtLeast,
-    AtMost,
-    Key,
-    Naming,
-    Parameters,
-    Unit,
-    complaint,
-)
+from contactstudy.validation import Above, AtLeast, AtMost, Key, Naming, Parameters, Unit, complaint
 from contactstudy.validation import quantities as q
 
 
@@ -20,28 +11,9 @@ from contactstudy.validation import quantities as q
 class CellRecipe(Parameters):
     """Mesh and reduction of one rail cell; two equal recipes give equal cells.
 
-    Attributes
-    ----------
-    profile : str
-        Name of the rail profile.
-    size : float
-        Element size at the running surface in m (lateral, depth and along X).
-    length : float
-        Length of the cell in m.
-    contact_half_width : float
-        Lateral extent of the fine running surface on each side in m.
-    interface_modes : int
-        Generalised modes of an interface plane, the beam's own included.
-    internal_modes : int
-        Fixed-interface vibration modes of a cell.
-    coarse : float
-        Largest element size of the section away from the running surface in m.
-    contact_centre : float
-        Centre of the fine running surface, arc length from the crown in m; 0 if symmetric.
-    symmetric : bool
-        Half section, for motion symmetric about the rail's vertical plane.
-    youngs_modulus, poisson_ratio, density : float
-        Material in Pa, 1 and kg/m^3.
+    The running surface is finely meshed by `contact_half_width` to both sides of `contact_centre`,
+    an arc length from the crown [m], 0 if symmetric: then half a section is meshed, for motion
+    symmetric about the rail's vertical plane. The material is in Pa, 1 and kg/m^3.
     """
 
     profile: str = "60E1"

@@ -42,16 +42,8 @@ class Rim:
 def half_rim(d: WheelDimensions, curve: ProfileCurve, fine: Array, grading: Grading) -> Rim:
     """Columns of the half y >= 0 of a rim that is symmetric about the tape circle.
 
-    The columns of the web stand straight where the fine part ends within it.
-
-    Parameters
-    ----------
-    d : WheelDimensions
-    curve : ProfileCurve
-        Tread; must be even in y.
-    fine : ndarray (k,)
-        Arc lengths of the fine part, from 0, in m.
-    grading : Grading
+    The tread must be even in y, the fine arc lengths (k,) begin at 0 [m]. The columns of the web
+    stand straight where the fine part ends within it.
 
     Raises
     ------
@@ -87,20 +79,12 @@ def half_rim(d: WheelDimensions, curve: ProfileCurve, fine: Array, grading: Grad
 
 
 def whole_rim(d: WheelDimensions, curve: ProfileCurve, fine: Array, grading: Grading) -> Rim:
-    """Columns of a whole rim with its flange.
+    """Columns of a whole rim with its flange, fine at given arc lengths (k,) [m].
 
     The mapped block's upper left corner lies on the flange where the outward normal is half way
-    between down and inside, so that the smooth outline bends as little as possible there.
-
-    Parameters
-    ----------
-    d : WheelDimensions
-    curve : ProfileCurve
-        Tread and flange; goes on straight to the faces of the rim where it ends before them,
-        and is cut there where it ends beyond.
-    fine : ndarray (k,)
-        Arc lengths of the fine part in m.
-    grading : Grading
+    between down and inside, so that the smooth outline bends as little as possible there. The
+    profile goes on straight to the faces of the rim where it ends before them, and is cut there
+    where it ends beyond.
 
     Raises
     ------
@@ -134,8 +118,6 @@ def tread_reach(d: WheelDimensions, curve: ProfileCurve, size: float) -> tuple[f
 
     Parameters
     ----------
-    d : WheelDimensions
-    curve : ProfileCurve
     size : float
         Element size in the fine part in m.
 

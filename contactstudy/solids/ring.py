@@ -17,21 +17,10 @@ from contactstudy.solids.wheel_section import WheelSection
 def slice_stiffness(
     section: WheelSection, angle: float, youngs_modulus: float, poisson_ratio: float
 ) -> sp.csr_array:
-    """Stiffness of a slice on the dofs of its two planes, one after the other.
+    """Stiffness (6n, 6n) [N/m] of a slice on the dofs of its two planes, one after the other.
 
-    Parameters
-    ----------
-    section : WheelSection
-        With n nodes.
-    angle : float
-        Between the planes in rad.
-    youngs_modulus, poisson_ratio : float
-        Elastic constants, E in Pa.
-
-    Returns
-    -------
-    csr_array (6n, 6n)
-        In N/m; of both halves y where the section is symmetric.
+    The angle between the planes is in rad, E in Pa; of both halves y where the section is
+    symmetric.
     """
     K = hex_stiffness(_corners(section, angle), youngs_modulus, poisson_ratio)
     return _assembled(section, angle, K)

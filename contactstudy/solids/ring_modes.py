@@ -61,25 +61,11 @@ def ring_families(
     material: tuple[float, float, float],
     highest: float,
 ) -> list[RingFamily]:
-    """Modes of a ring of equal slices up to a frequency.
+    """Modes of a ring of equal slices up to a frequency [Hz].
 
-    Parameters
-    ----------
-    section : WheelSection
-        With n nodes.
-    free : ndarray of bool (3n,)
-        Dofs of a plane that are not held; what is held must leave no rigid motion.
-    step : float
-        Angle between two planes in rad.
-    material : tuple of float
-        Young's modulus in Pa, Poisson's ratio, density in kg/m^3.
-    highest : float
-        Frequency in Hz.
-
-    Returns
-    -------
-    list of RingFamily
-        With 0, 1, 2, ... waves, until one (beyond 1) has no mode.
+    Those with 0, 1, 2, ... waves, until one (beyond 1) has no mode. The `free` dofs (3n,) of a
+    plane are not held; what is held must leave no rigid motion. `step` is the angle between two
+    planes [rad], `material` Young's modulus in Pa, Poisson's ratio, density in kg/m^3.
 
     Raises
     ------

@@ -59,23 +59,10 @@ def rail_section_mesh(
     contact_half_width: float = 0.010,
     symmetric: bool = True,
 ) -> SectionMesh:
-    """Mesh a rail section, fine at the running surface.
+    """Mesh a rail section, or its half y >= 0, fine at the running surface.
 
-    Parameters
-    ----------
-    profile : RailProfile
-        Outline of the section.
-    grading : Grading
-    contact_centre : float
-        Centre of the fine running surface, arc length from the crown in m; 0 if symmetric.
-    contact_half_width : float
-        Extent of the fine running surface on each side of its centre, as arc length in m.
-    symmetric : bool
-        Mesh the half y >= 0 only.
-
-    Returns
-    -------
-    SectionMesh
+    The fine part reaches `contact_half_width` to both sides of `contact_centre`, an arc length from
+    the crown [m], 0 if symmetric.
 
     Raises
     ------

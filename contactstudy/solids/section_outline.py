@@ -36,7 +36,6 @@ class Outline:
 
     Attributes
     ----------
-    profile : RailProfile
     side : ndarray (n, 2)
         Points (y, z) from the crown to the middle of the foot in m.
     marks : tuple of int
@@ -65,14 +64,7 @@ class Outline:
 
 
 def fine_reach(profile: RailProfile, size: float) -> float:
-    """How far from the crown the fine running surface may reach, arc length in m.
-
-    Parameters
-    ----------
-    profile : RailProfile
-    size : float
-        Element size at the running surface in m.
-    """
+    """How far from the crown the fine running surface may reach, arc length in m."""
     return Outline.of(profile, round_corner=True).top_length - size - _LOWEST
 
 

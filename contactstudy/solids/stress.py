@@ -14,17 +14,9 @@ def stress_tensor(stress: Array) -> Array:
 
 
 def von_mises(stress: Array) -> Array:
-    """Equivalent stress of von Mises.
+    """Equivalent stress (...) of von Mises of stresses (..., 6), in Pa.
 
-    Parameters
-    ----------
-    stress : ndarray (..., 6)
-        In Pa.
-
-    Returns
-    -------
-    ndarray (...)
-        ``sqrt(((xx-yy)^2 + (yy-zz)^2 + (zz-xx)^2)/2 + 3 (yz^2 + zx^2 + xy^2))`` in Pa.
+    ``sqrt(((xx-yy)^2 + (yy-zz)^2 + (zz-xx)^2)/2 + 3 (yz^2 + zx^2 + xy^2))``
     """
     xx, yy, zz, yz, zx, xy = np.moveaxis(np.asarray(stress, dtype=float), -1, 0)
     normal = (xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2
@@ -32,17 +24,6 @@ def von_mises(stress: Array) -> Array:
 
 
 def maximum_shear(stress: Array) -> Array:
-    """Largest shear stress on any plane, half the difference of the outer principal stresses.
-
-    Parameters
-    ----------
-    stress : ndarray (..., 6)
-        In Pa.
-
-    Returns
-    -------
-    ndarray (...)
-        ``(s_1 - s_3)/2`` in Pa.
-    """
+    """Largest shear stress (...) on any plane of stresses (..., 6), ``(s_1 - s_3)/2`` in Pa."""
     principal = np.linalg.eigvalsh(stress_tensor(stress))
     return np.asarray(0.5 * (principal[..., 2] - principal[..., 0]))

@@ -76,17 +76,7 @@ def rigid_wheel(recipe: WheelRecipe) -> WheelFlexibility:
 
 
 def elastic_wheel(recipe: WheelRecipe) -> WheelFlexibility:
-    """Condense a wheel to its tread nodes in the contact zone.
-
-    Parameters
-    ----------
-    recipe : WheelRecipe
-        Mesh and material.
-
-    Returns
-    -------
-    WheelFlexibility
-    """
+    """Condense a wheel to its tread nodes in the contact zone."""
     section = recipe.section()
     held = held_dofs(section)
     near, far = _slices(recipe, section, ~held)
@@ -134,21 +124,10 @@ def _slices(
 
 
 def _half_ring(near: list[Slice], far: Slice, loads: list[Array], sign: Array) -> list[Array]:
-    """Displacements of the loaded planes under the part of the loads with one mirror symmetry.
+    """Displacements (n, planes * ny) of the loaded planes under the loads' part of one symmetry.
 
-    Parameters
-    ----------
-    near, far
-        As `_slices` gives them, on n dofs a plane.
-    loads : list of ndarray (ny, n)
-        Unit forces at the tread nodes of each loaded plane.
-    sign : ndarray (n,)
-        What the mirror image's displacements are multiplied by.
-
-    Returns
-    -------
-    list of ndarray (n, planes * ny)
-        For the loads of all planes.
+    Of unit forces (ny, n) at the tread nodes of each loaded plane; `sign` (n,) multiplies the
+    mirror image's displacements.
     """
     n_loaded, ny, n = len(loads), len(loads[0]), len(sign)
     # half of the arc's energy belongs to this half of the ring

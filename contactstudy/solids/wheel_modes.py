@@ -89,16 +89,7 @@ class WheelModes:
 
 
 def wheel_modes(recipe: ModesRecipe) -> WheelModes:
-    """Modes of a wheel up to a frequency.
-
-    Parameters
-    ----------
-    recipe : ModesRecipe
-
-    Returns
-    -------
-    WheelModes
-        By growing frequency; the two mirror symmetries in x together.
+    """Modes up to a frequency, by growing frequency, the two mirror symmetries in x together.
 
     Raises
     ------

@@ -12,16 +12,7 @@ from contactstudy.profiles.wheel_file import named_file_digest
 from contactstudy.solids.mapped import Grading
 from contactstudy.solids.recipe import CellRecipe
 from contactstudy.solids.wheel_section import WheelSection, fine_arcs, wheel_section
-from contactstudy.validation import (
-    Above,
-    AtMost,
-    Key,
-    Naming,
-    Parameters,
-    Same,
-    Unit,
-    complaint,
-)
+from contactstudy.validation import Above, AtMost, Key, Naming, Parameters, Same, Unit, complaint
 from contactstudy.validation import quantities as q
 
 COARSE, GROWTH = 0.012, 1.6
@@ -46,14 +37,6 @@ class WheelRecipe(Parameters):
     rail_profile : str
         Gives the direction of the contact forces on a symmetric wheel: its outward normal at
         each y. On a whole wheel they act along the wheel's own normal.
-    dimensions : WheelDimensions
-        Of rim, web and hub.
-    size : float
-        Element size at the tread in m (lateral, depth and along the circumference).
-    contact_half_length, contact_half_width : float
-        Extent of the contact zone along and across the rail on each side in m.
-    youngs_modulus, poisson_ratio, density : float
-        Material, E in Pa, kg/m^3.
     symmetric : bool
         Half section, even in y, without flange. False: the whole section.
     contact_centre : float
@@ -135,9 +118,9 @@ class WheelRecipe(Parameters):
 
     @property
     def y(self) -> Array:
-        """Grid lines of the contact zone across the rail in m.
+        """Grid lines of the contact zone across the rail, arc lengths on the profile [m].
 
-        Arc lengths on the profile from the tape circle; those of a symmetric wheel begin at 0.
+        From the tape circle; those of a symmetric wheel begin at 0.
         """
         return fine_arcs(self.contact_centre, self.contact_half_width, self.size, self.symmetric)
 

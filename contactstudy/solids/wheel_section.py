@@ -62,25 +62,10 @@ def wheel_section(
     grading: Grading,
     symmetric: bool = False,
 ) -> WheelSection:
-    """Mesh a section, fine about a point of its profile.
+    """Mesh a section, or its half y >= 0, fine about a point of its profile.
 
-    Parameters
-    ----------
-    dimensions : WheelDimensions
-        Rim, web and hub.
-    curve : ProfileCurve
-        Tread and flange.
-    contact_centre : float
-        Arc length of the middle of the fine part on the profile in m, 0 at the tape circle.
-    contact_half_width : float
-        Extent of the fine part on each side in m.
-    grading : Grading
-    symmetric : bool
-        Half section y >= 0.
-
-    Returns
-    -------
-    WheelSection
+    The fine part reaches `contact_half_width` to both sides of `contact_centre`, an arc length on
+    the profile from the tape circle [m].
 
     Raises
     ------

@@ -47,21 +47,9 @@ class WindowResponse:
 
 
 def window_response(piece: Slice, n_slices: int, rows: SectionRows) -> WindowResponse:
-    """Solve the window for loads on its middle.
+    """Solve the window for loads on its middle: responses in m/N.
 
-    Parameters
-    ----------
-    piece : Slice
-        Stiffness of one slice in N/m.
-    n_slices : int
-        Slices of a cell.
-    rows : SectionRows
-        Functionals of a plane.
-
-    Returns
-    -------
-    WindowResponse
-        In m/N.
+    `piece` is the stiffness of one slice in N/m, of `n_slices` to a cell.
     """
     cell = repeat(piece, n_slices)
     beyond = repeat(cell, MARGIN)
@@ -84,16 +72,10 @@ def window_response(piece: Slice, n_slices: int, rows: SectionRows) -> WindowRes
 def _loaded(
     factor: BlockTridiagonal, group: IntArray, n_slices: int, rows: SectionRows
 ) -> tuple[Array, Array, Array, Array, Array]:
-    """Responses to the loads on a group of planes.
+    """Responses to loads on a group of planes: surface, centre, own centre of `WindowResponse`.
 
-    Returns
-    -------
-    surface, centre, own_centre : ndarray
-        As of `WindowResponse`, the columns of this group.
-    contact : ndarray (3, n, len(group)*ny)
-        Displacements of the window's first, middle and last plane under the contact loads.
-    foot : ndarray (3, n, nm, len(group))
-        And under those on the foot.
+    Then the displacements of the window's first, middle and last plane under the contact loads, (3,
+    n, len(group)*ny), and under those on the foot, (3, n, nm, len(group)).
     """
     n, ny, nm, k = len(rows.weights), len(rows.surface_y), len(rows.foot), len(group)
     others = np.vstack([rows.foot, rows.centre[:1]]).T
