@@ -16,7 +16,9 @@ import numpy as np
 
 from contactstudy.arrays import Array
 from contactstudy.exceptions import InputError
+from contactstudy.profiles.curve import ProfileCurve, joined
 from contactstudy.profiles.penalised_spline import needed_knots, penalised_spline
+from contactstudy.profiles.pieces import ParametricPiece, SplinePath
 
 if TYPE_CHECKING:
     from scipy.interpolate import BSpline
@@ -66,6 +68,16 @@ class CloudFit:
     def rms(self) -> float:
         """Root mean square of the distances [m]."""
         return float(np.sqrt(np.mean(self.distance**2)))
+
+    def curve(self, origin: Array, upper: bool, name: str) -> ProfileCurve:
+        """The curve from an origin (2,) on it [m], s = 0 there."""
+        from scipy.interpolate import BSpline
+
+        spline = BSpline(self.spline.t, self.spline.c - origin, self.spline.k)
+        # panels that follow the knots closely, for the table of the arc length
+        panels = max(400, 8 * len(self.knots))
+        piece = ParametricPiece(SplinePath(spline), 0.0, self.length, panels)
+        return joined(name, [piece], upper, residual=self.rms)
 
 
 def fit_cloud(

@@ -156,9 +156,7 @@ class ProfileCurve:
         return self._closest_points(points)
 
 
-def joined(
-    name: str, pieces: Sequence[Piece], zero: float, upper: bool, residual: float = 0.0
-) -> ProfileCurve:
-    """Curve of given pieces whose arc length is 0 at lateral position `zero` [m]."""
+def joined(name: str, pieces: Sequence[Piece], upper: bool, residual: float = 0.0) -> ProfileCurve:
+    """Curve of given pieces whose arc length is 0 at y = 0."""
     curve = ProfileCurve(name, tuple(pieces), 0.0, upper, residual)
-    return ProfileCurve(name, curve.pieces, -float(curve.arc_of_y(zero)), upper, residual)
+    return ProfileCurve(name, curve.pieces, -float(curve.arc_of_y(0.0)), upper, residual)

@@ -51,7 +51,7 @@ def wheel_curve(name: str) -> ProfileCurve:
 @lru_cache(maxsize=16)
 def _drawn_wheel(name: str) -> ProfileCurve:
     profile = wheel_profile(name)
-    return joined(profile.name, profile.pieces, 0.0, upper=False)
+    return joined(profile.name, profile.pieces, upper=False)
 
 
 def _is_file(name: str) -> bool:

@@ -13,8 +13,7 @@ import numpy as np
 from contactstudy.arrays import Array, IntArray
 from contactstudy.exceptions import InputError
 from contactstudy.profiles.cloud import CloudFit
-from contactstudy.profiles.curve import ProfileCurve, joined
-from contactstudy.profiles.pieces import ParametricPiece, SplinePath
+from contactstudy.profiles.curve import ProfileCurve
 
 STEEPEST = np.deg2rad(80.0)
 """Angle of the surface with the horizontal up to which it can be touched."""
@@ -88,27 +87,21 @@ def regressed(fit: CloudFit, columns: Array) -> tuple[Array, Array]:
     return inverse @ (A.T @ r), inverse
 
 
-def curve_of(fit: CloudFit, zero: float, upper: bool, name: str) -> tuple[ProfileCurve, Array]:
-    """Curve with its origin at y = zero, and that origin (0, y, z) in the fit's axes."""
-    from scipy.interpolate import BSpline
-
+def curve_of(fit: CloudFit, upper: bool, name: str) -> tuple[ProfileCurve, Array]:
+    """Curve with its origin at y = 0, and that origin (0, 0, z) in the fit's axes [m]."""
     ends = fit.spline([0.0, fit.length])[:, 0]
-    if not ends[0] < zero < ends[1]:
+    if not ends[0] < 0.0 < ends[1]:
         what = "the rail's middle plane" if upper else "the tape circle"
         raise InputError(
-            f"{name}: {what} is {1e3 * (zero - ends[0]):.1f} mm beyond the scan's lower end in Y, "
-            f"{1e3 * (ends[1] - zero):.1f} mm below its upper end; it must lie between them"
+            f"{name}: {what} is {1e3 * (0.0 - ends[0]):.1f} mm beyond the scan's lower end in Y, "
+            f"{1e3 * ends[1]:.1f} mm below its upper end; it must lie between them"
         )
     u = np.linspace(0.0, fit.length, 2000)
-    s = float(np.interp(zero, fit.spline(u)[:, 0], u))
+    s = float(np.interp(0.0, fit.spline(u)[:, 0], u))
     for _ in range(4):
-        s -= float((fit.spline(s)[0] - zero) / fit.spline(s, 1)[0])
-    shift = np.array([0.0, zero, float(fit.spline(s)[1])])
-    spline = BSpline(fit.spline.t, fit.spline.c - shift[1:], fit.spline.k)
-    # panels that follow the knots closely, for the table of the arc length
-    panels = max(400, 8 * len(fit.knots))
-    piece = ParametricPiece(SplinePath(spline), 0.0, fit.length, panels)
-    return joined(name, [piece], 0.0, upper, residual=fit.rms), shift
+        s -= float(fit.spline(s)[0] / fit.spline(s, 1)[0])
+    shift = np.array([0.0, 0.0, float(fit.spline(s)[1])])
+    return fit.curve(shift[1:], upper, name), shift
 
 
 def scan_fit(

@@ -60,7 +60,7 @@ def fit_rail_head(
             break
     axes = _rail_axes(angles)
     fit = fit_cloud(((p - centre) @ axes.T)[:, 1:], shortest, name)
-    curve, shift = curve_of(fit, 0.0, True, name)
+    curve, shift = curve_of(fit, True, name)
     origin = centre + shift @ axes
     turned = {"yaw": float(angles[0]), "pitch": float(angles[1])}
     return scan_fit(fit, curve, axes, origin, turned, np.inf, 0.0)

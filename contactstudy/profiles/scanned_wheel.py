@@ -64,7 +64,7 @@ def fit_wheel_tread(
             break
     rho, _, _ = _from_axis(p, x0, z0, yaw)
     fit = fit_cloud(np.stack([_turned(p, yaw)[:, 1], -rho], axis=-1), shortest, name)
-    curve, shift = curve_of(fit, 0.0, False, name)
+    curve, shift = curve_of(fit, False, name)
     radius = float(-shift[2])
     axes = _turn(yaw)
     axle = np.array([x0, 0.0, z0]) @ axes + base

@@ -10,8 +10,7 @@ from contactstudy.arrays import Array
 from contactstudy.csv_rows import finite_number, listed, read_rows
 from contactstudy.exceptions import InputError
 from contactstudy.profiles.cloud import fit_cloud
-from contactstudy.profiles.curve import ProfileCurve, joined
-from contactstudy.profiles.pieces import ParametricPiece, SplinePath
+from contactstudy.profiles.curve import ProfileCurve
 
 Body = Literal["rail", "wheel"]
 
@@ -79,17 +78,13 @@ def fitted_curve(
     points: Array, body: Body, smoothing: float = 1e-3, name: str = "worn profile"
 ) -> ProfileCurve:
     """Smooth profile through points (n, 2) = (y, z) along which y grows [m], as in `worn_curve`."""
-    from scipy.interpolate import BSpline
-
     fit = fit_cloud(points, smoothing, name)
     # z = 0 at y = 0: Newton along the curve from the nearest point
     s = float(fit.s[np.argmin(np.abs(points[:, 0]))])
     for _ in range(20):
         s = float(np.clip(s - fit.spline(s)[0] / fit.spline(s, 1)[0], 0.0, fit.length))
     down = np.array([0.0, float(fit.spline(s)[1])])
-    spline = BSpline(fit.spline.t, fit.spline.c - down, fit.spline.k)
-    piece = ParametricPiece(SplinePath(spline), 0.0, fit.length, max(400, 8 * len(fit.knots)))
-    return joined(name, [piece], 0.0, body == "rail", residual=fit.rms)
+    return fit.curve(down, body == "rail", name)
 
 
 def _columns(
