@@ -87,9 +87,9 @@ class CandidateList:
     """Facets of the upper body that can touch, kept until the bodies have moved (a Verlet list).
 
     A list made for the approach d holds every facet of the upper body that comes within the padding
-    of the lower body's surface, or has passed through it. It serves all approaches up to ``d +
-    padding``, and is made anew as well when the approach has fallen so far that it is needlessly
-    long; `queries` counts how often.
+    of the lower body's surface, or has passed through it. It serves all approaches up to
+    ``d + padding``, and is made anew as well when the approach has fallen so far that it is
+    needlessly long; `queries` counts how often.
 
     A point of the upper body that lies below the lower surface stood above it at first touch, an
     approach higher; so the boxes around the lower surface, drawn down by the approach, hold all

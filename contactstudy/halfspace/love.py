@@ -19,9 +19,9 @@ from contactstudy.validation import positive, raise_if
 def love_influence(x: Array, y: Array, width: float, breadth: float, modulus: float) -> Array:
     """Approach [m/Pa] of two half-spaces under unit pressure on one rectangle.
 
-    With the corners of the rectangle seen from the point, ``pi E* u = f(x+a, y+b) - f(x+a, y-b) -
-    f(x-a, y+b) + f(x-a, y-b)`` and ``f(x, y) = x asinh(y/|x|) + y asinh(x/|y|)``, the double
-    integral of 1/r.
+    With the corners of the rectangle seen from the point,
+    ``pi E* u = f(x+a, y+b) - f(x+a, y-b) - f(x-a, y+b) + f(x-a, y-b)`` and
+    ``f(x, y) = x asinh(y/|x|) + y asinh(x/|y|)``, the double integral of 1/r.
 
     The places x, y (...) are relative to the rectangle's centre, its sides `width` 2a along x and
     `breadth` 2b along y [m]; the modulus E* [Pa] of one body gives its own displacement.

@@ -55,10 +55,10 @@ def recovered_pressure(x: Array, y: Array, nodal: Array, parts: int = 4) -> Surf
     """Pressure whose lumped projection to the nodes is the given one, with its resultant.
 
     `contactstudy.geometry.points.ContactPoints.nodal_pressure` smooths by the order h^2: for a
-    bilinear field q it gives ``S q``, S the consistent mass matrix over its row sums. So ``q = S^-1
-    p``, here by the first two terms of Neumann's series, ``q = p + (p - S p)``, which leaves an
-    error of the order h^4 and little of the oscillation of an exact inverse. Beyond the rim of the
-    patch q undershoots zero by a few per cent of the peak, which the depth evens out.
+    bilinear field q it gives ``S q``, S the consistent mass matrix over its row sums. So
+    ``q = S^-1 p``, here by the first two terms of Neumann's series, ``q = p + (p - S p)``, which
+    leaves an error of the order h^4 and little of the oscillation of an exact inverse. Beyond the
+    rim of the patch q undershoots zero by a few per cent of the peak, which the depth evens out.
 
     Arguments as of `bilinear_pressure`; of the whole patch, not of half a symmetric one.
     """

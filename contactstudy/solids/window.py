@@ -74,8 +74,8 @@ def _loaded(
 ) -> tuple[Array, Array, Array, Array, Array]:
     """Responses to loads on a group of planes: surface, centre, own centre of `WindowResponse`.
 
-    Then the displacements of the window's first, middle and last plane under the contact loads, (3,
-    n, len(group)*ny), and under those on the foot, (3, n, nm, len(group)).
+    Then the displacements of the window's first, middle and last plane under the contact loads,
+    (3, n, len(group)*ny), and under those on the foot, (3, n, nm, len(group)).
     """
     n, ny, nm, k = len(rows.weights), len(rows.surface_y), len(rows.foot), len(group)
     others = np.vstack([rows.foot, rows.centre[:1]]).T
