@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 import scipy.linalg
@@ -26,8 +27,8 @@ class LinearSystem:
         return self.mass.shape[0]
 
     @classmethod
-    def stacked(cls, *parts: "LinearSystem") -> "LinearSystem":
-        """Uncoupled systems one after the other (the track's dofs, then the vehicle's)."""
+    def stacked(cls, *parts: Any) -> "LinearSystem":
+        """Uncoupled parts, each with mass, damping and stiffness, one after the other."""
         return cls(
             *(
                 _csr(sp.block_diag([getattr(part, name) for part in parts]))

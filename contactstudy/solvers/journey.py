@@ -9,14 +9,7 @@ import numpy as np
 
 from contactstudy.arrays import Array, IntArray
 from contactstudy.track.model import Track
-from contactstudy.validation import (
-    AtLeast,
-    Key,
-    Naming,
-    Parameters,
-    Unit,
-    complaint,
-)
+from contactstudy.validation import AtLeast, Key, Naming, Parameters, Unit, complaint
 from contactstudy.validation import quantities as q
 from contactstudy.vehicle import Vehicle
 

@@ -5,7 +5,6 @@ from functools import cached_property
 from typing import Generic, TypeVar
 
 import numpy as np
-import scipy.sparse as sp
 
 from contactstudy.arrays import Array, IntArray
 from contactstudy.dynamics.banded import LinearSystem
@@ -37,13 +36,7 @@ class Passage(Generic[T]):
     @property
     def system(self) -> LinearSystem:
         """Matrices of the track's dofs followed by the vehicle's."""
-        track, vehicle = self.track, self.vehicle
-        return LinearSystem.stacked(
-            LinearSystem(track.mass, track.damping, track.stiffness),
-            LinearSystem(
-                *(sp.csr_array(m) for m in (vehicle.mass, vehicle.damping, vehicle.stiffness))
-            ),
-        )
+        return LinearSystem.stacked(self.track, self.vehicle)
 
     @property
     def n_dofs(self) -> int:

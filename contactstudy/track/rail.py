@@ -5,15 +5,7 @@ from typing import Annotated, Literal
 
 from contactstudy.profiles.section import SectionProperties
 from contactstudy.solids.recipe import CellRecipe
-from contactstudy.validation import (
-    Above,
-    Key,
-    Naming,
-    Parameters,
-    Same,
-    Unit,
-    positive,
-)
+from contactstudy.validation import Above, Key, Naming, Parameters, Same, Unit, positive
 from contactstudy.validation import quantities as q
 
 Direction = Literal["Z", "Y"]

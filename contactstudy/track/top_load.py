@@ -53,32 +53,26 @@ class AssembledMesh(AssembledTrack):
 
     @cached_property
     def _top_load(self) -> Callable[[Array], Array]:
-        return top_load_compliance(cast(MeshedTrack, self))
+        """2 F_Bp(X) - F_Bp(mid) as a function of X, that of the middle bay in all bays."""
+        from scipy.interpolate import CubicSpline
 
+        track = cast(MeshedTrack, self)
+        factor, bay, middle = Factor(track.stiffness), track.track.bay_length, track.track.middle
+        at_middle = _pair(track, factor, middle)
+        if not isinstance(track.track.support, DiscreteSupports):
+            return lambda x: np.full(np.shape(x), at_middle)
+        # on planes of the mesh, so that no phase of it matters
+        planes = np.unique(np.round(np.linspace(0.0, 0.5 * bay, _SAMPLES) / track.thickness))
+        offset = np.minimum(planes * track.thickness, 0.5 * bay)
+        values = np.array([_pair(track, factor, middle - x) for x in offset])
+        knots, first = np.unique(np.r_[-offset, offset].round(12), return_index=True)
+        spline = CubicSpline(knots, np.r_[values, values][first])
 
-def top_load_compliance(track: MeshedTrack) -> Callable[[Array], Array]:
-    """2 F_Bp(X) - F_Bp(mid) as a function of X (m,) [m], in m/N; may be negative.
+        def compliance(x: Array) -> Array:
+            from_middle = np.mod(np.asarray(x) - middle + 0.5 * bay, bay) - 0.5 * bay
+            return np.asarray(2 * spline(from_middle) - at_middle)
 
-    It is that of the middle bay in all bays.
-    """
-    from scipy.interpolate import CubicSpline
-
-    factor, bay, middle = Factor(track.stiffness), track.track.bay_length, track.track.middle
-    at_middle = _pair(track, factor, middle)
-    if not isinstance(track.track.support, DiscreteSupports):
-        return lambda x: np.full(np.shape(x), at_middle)
-    # on planes of the mesh, so that no phase of it matters
-    planes = np.unique(np.round(np.linspace(0.0, 0.5 * bay, _SAMPLES) / track.thickness))
-    offset = np.minimum(planes * track.thickness, 0.5 * bay)
-    values = np.array([_pair(track, factor, middle - x) for x in offset])
-    knots, first = np.unique(np.r_[-offset, offset].round(12), return_index=True)
-    spline = CubicSpline(knots, np.r_[values, values][first])
-
-    def compliance(x: Array) -> Array:
-        from_middle = np.mod(np.asarray(x) - middle + 0.5 * bay, bay) - 0.5 * bay
-        return np.asarray(2 * spline(from_middle) - at_middle)
-
-    return compliance
+        return compliance
 
 
 def _pair(track: MeshedTrack, factor: Factor, x: float) -> float:
