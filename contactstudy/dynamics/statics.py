@@ -13,19 +13,14 @@ _LOWERED, _LOWEST = 20e-6, 5e-3
 
 
 def static_start(
-    system: LinearSystem,
-    coupling: Coupling,
-    external: Array,
-    wheel_dofs: IntArray,
-    auxiliary_stiffness: float = 1e9,
+    system: LinearSystem, coupling: Coupling, external: Array, wheel_dofs: IntArray
 ) -> State:
     """Equilibrium with the contact at step 0: K u = external + B^T lambda(u), at rest.
 
     A vehicle on its own has rigid modes, so K is singular. Springs under the wheels make it
     regular; their feet z are moved until the springs carry no force (Broyden's method, exact
     after two moves for one wheel and a linear law). So any law, any number of wheels and any
-    vehicle start in equilibrium, with the resultants that statics asks for. The auxiliary
-    stiffness is that of each spring [N/m], the external load (n,) constant.
+    vehicle start in equilibrium, with the resultants that statics asks for.
 
     Raises
     ------
@@ -33,7 +28,7 @@ def static_start(
         If K is singular for another reason than free wheels, a wheel finds nothing to stand on, or
         no equilibrium is found.
     """
-    n, kappa = system.n_dofs, auxiliary_stiffness
+    n, kappa = system.n_dofs, 1e9  # N/m of each spring under a wheel
     springs = np.zeros(n)
     springs[wheel_dofs] = kappa
     factor = Factor(system.stiffness + sp.diags_array(springs))
