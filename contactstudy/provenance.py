@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import platform
+from collections.abc import Mapping
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
@@ -15,7 +16,8 @@ WRITING = ("xarray", "h5netcdf", "h5py", "meshio", "matplotlib", "typst")
 
 
 @functools.cache
-def _versions(packages: tuple[str, ...]) -> dict[str, str]:
+def versions(packages: tuple[str, ...] = COMPUTING + WRITING) -> Mapping[str, str]:
+    """Package -> version, the program and Python first; packages that are absent are left out."""
     found = {"contactstudy": __version__, "Python": platform.python_version()}
     for package in packages:
         try:
@@ -23,16 +25,6 @@ def _versions(packages: tuple[str, ...]) -> dict[str, str]:
         except PackageNotFoundError:  # cannot make a result then either
             continue
     return found
-
-
-def versions() -> dict[str, str]:
-    """Package -> version, the program and Python first; packages that are absent are left out."""
-    return dict(_versions(COMPUTING + WRITING))
-
-
-def computing_versions() -> dict[str, str]:
-    """The same of what decides the numbers."""
-    return dict(_versions(COMPUTING))
 
 
 def provenance(
@@ -54,7 +46,7 @@ def provenance(
     return {
         "seed": seed,
         "hash": inputs_hash,
-        "versions": versions(),
+        "versions": dict(versions()),
         "mesh": mesh,
         "files": files,
         "sources": [f"{name}, SHA-256 {content}" for name, content in files.items()],

@@ -13,17 +13,16 @@ _ROOTS = {
 }
 
 
-def resource(*parts: str) -> Path:
+def resource(kind: str, *parts: str) -> Path:
     """Path of a file or folder that is shipped with the program.
 
-    The first of its parts is ``"meshes"``, ``"studies"`` or ``"report"``; it exists, in the
-    installed package or, for an editable install, the source tree, or is an ``InputError``.
+    The kind is ``"meshes"``, ``"studies"`` or ``"report"``. It exists, in the installed package
+    or, for an editable install, the source tree; an ``InputError`` if there is none.
     """
-    if not parts or parts[0] not in _ROOTS:
-        given = parts[0] if parts else ""
-        raise InputError(f"resource '{given}' is unknown; allowed: {', '.join(sorted(_ROOTS))}")
-    for root in _ROOTS[parts[0]]:
-        path = root.joinpath(*parts[1:])
+    if kind not in _ROOTS:
+        raise InputError(f"resource '{kind}' is unknown; allowed: {', '.join(sorted(_ROOTS))}")
+    for root in _ROOTS[kind]:
+        path = root.joinpath(*parts)
         if path.exists():
             return path
-    raise InputError(f"{'/'.join(parts)}: no such file is shipped with contactstudy")
+    raise InputError(f"{'/'.join((kind, *parts))}: no such file is shipped with contactstudy")

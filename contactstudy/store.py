@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 
 from contactstudy.code import code_digest
 from contactstudy.files import file_digest, remove_unfinished, writing
-from contactstudy.provenance import computing_versions
+from contactstudy.provenance import COMPUTING, versions
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -68,7 +68,7 @@ def store_key(inputs: Any, code_of: Callable[..., Any] | str | None) -> str:
     of the program decides.
     """
     module = code_of if isinstance(code_of, str) or code_of is None else code_of.__module__
-    return digest([inputs, code_digest(module), computing_versions()])
+    return digest([inputs, code_digest(module), dict(versions(COMPUTING))])
 
 
 @dataclass(frozen=True)

@@ -41,6 +41,7 @@ class MeasuredProfile:
         For messages and legends.
     """
 
+    repeat_length = np.inf
     positions: Array
     levels: Array
     interpolation: Interpolation = "cubic"
@@ -51,11 +52,6 @@ class MeasuredProfile:
     def domain(self) -> tuple[float, float]:
         """First and last position [m]."""
         return float(self.positions[0]), float(self.positions[-1])
-
-    @property
-    def repeat_length(self) -> float:
-        """Infinite [m]: a measurement does not repeat itself."""
-        return np.inf
 
     @cached_property
     def _spline(self) -> BSpline:

@@ -44,15 +44,8 @@ class RepeatWarning(UserWarning):
 class SmoothRail:
     """No irregularity."""
 
-    @property
-    def domain(self) -> tuple[float, float]:
-        """The whole axis [m]."""
-        return EVERYWHERE
-
-    @property
-    def repeat_length(self) -> float:
-        """Infinite [m]: there is nothing to repeat."""
-        return np.inf
+    domain = EVERYWHERE
+    repeat_length = np.inf
 
     def __call__(self, x: ArrayLike, derivative: int = 0) -> Array:
         """Zero at every position."""
@@ -75,6 +68,7 @@ class HarmonicProfile:
         If the three differ in length or are empty.
     """
 
+    domain = EVERYWHERE
     amplitudes: Array
     wavenumbers: Array
     phases: Array
@@ -101,11 +95,6 @@ class HarmonicProfile:
         # no more than the wavenumbers' own rounding, which the phases cannot tell apart
         rounding = 8.0 * np.finfo(float).eps * float(np.abs(self.wavenumbers).max())
         return mean if mean > 0.0 and np.abs(step - mean).max() < rounding else None
-
-    @property
-    def domain(self) -> tuple[float, float]:
-        """The whole axis [m]."""
-        return EVERYWHERE
 
     @property
     def repeat_length(self) -> float:

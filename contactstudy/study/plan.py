@@ -80,7 +80,7 @@ class Plan:
     def key(self) -> str:
         """Hash of everything that goes into the results, drawing and printing included."""
         texts = [self.study.name, self.study.title, self.study.description]
-        own = [texts, self.inputs.config, dict(self.inputs.files), versions()]
+        own = [texts, self.inputs.config, dict(self.inputs.files), dict(versions())]
         return store_key([own, [companion.key() for companion in self.companions]], None)
 
 

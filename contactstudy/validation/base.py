@@ -91,12 +91,8 @@ def only_with(key: str, decider: str, values: Iterable[str], here: str) -> str:
 
 def naming(owner: type, path: str) -> Naming:
     """How the fields of a class are called in the table `path` of a study file."""
-
-    def key(name: str) -> str:
-        found = [p.key for p in parameters(owner) if p.name == name]
-        return f"{path}.{found[0] if found and found[0] else name}"
-
-    return key
+    keys = {p.name: p.key for p in parameters(owner)}
+    return lambda name: f"{path}.{keys.get(name) or name}"
 
 
 def check(owner: type, given: Mapping[str, Any], key: Naming) -> tuple[dict[str, Any], list[str]]:

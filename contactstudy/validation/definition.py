@@ -81,7 +81,8 @@ class Parameter:
         """Value as the class holds it (SI, tuples), and what is wrong with it."""
         if value is None and NoneType in self._parts:
             return None, []
-        if isinstance(value, str) and value in self.choices and not self._list_of_choices:
+        list_of_choices = self.listed is not None and get_origin(self.listed[0]) is Literal
+        if isinstance(value, str) and value in self.choices and not list_of_choices:
             return value, []
         try:
             if self.written:
@@ -91,10 +92,6 @@ class Parameter:
         except UnitError as error:
             return None, [("", value, str(error))]
         return self._items(value, self.listed)
-
-    @property
-    def _list_of_choices(self) -> bool:
-        return self.listed is not None and get_origin(self.listed[0]) is Literal
 
     def _items(self, value: Any, kinds: tuple[Any, ...]) -> tuple[Any, list[Problem]]:
         if isinstance(value, str | Mapping) or not isinstance(value, Iterable):

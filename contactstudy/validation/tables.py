@@ -31,8 +31,9 @@ def entries(table: Table) -> dict[str, Entry]:
     if isinstance(table, Variants):
         return _of_variants(table)
     own = parameters(table)
+    keys = {p.name: p.key for p in own}
     found = {
-        p.key: Entry(p, tuple((_key_of(own, w.key), w.values) for w in p.when))
+        p.key: Entry(p, tuple((keys.get(w.key, w.key), w.values) for w in p.when))
         for p in own
         if p.key and p.variants is None
     }
@@ -40,10 +41,6 @@ def entries(table: Table) -> dict[str, Entry]:
         if p.variants is not None:
             found |= _of_variants(p.variants)
     return found
-
-
-def _key_of(own: tuple[Parameter, ...], name: str) -> str:
-    return next((p.key for p in own if p.name == name), name)
 
 
 def _of_variants(variants: Variants) -> dict[str, Entry]:

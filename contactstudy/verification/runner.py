@@ -87,7 +87,7 @@ def _of_task(name: str, ended: Outcome) -> CaseOutcome:
 
 def about() -> dict[str, Any]:
     """Versions of everything that computes, and the hash of the program's code."""
-    return {"versions": versions() | _optional_versions(), "code": code_digest()[:16]}
+    return {"versions": {**versions(), **_optional_versions()}, "code": code_digest()[:16]}
 
 
 def _optional_versions() -> dict[str, str]:
