@@ -261,13 +261,7 @@ def _errors() -> Console:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command line; returns the exit status.
-
-    Parameters
-    ----------
-    arguments : sequence of str, optional
-        Instead of ``sys.argv[1:]``.
-    """
+    """Run the command line (of `arguments`, else ``sys.argv``); returns the exit status."""
     # before anything loads a BLAS: bytes, and small problems' speed, depend on its threads
     os.environ.update(ONE_THREAD)
     tokens = list(sys.argv[1:] if arguments is None else arguments)

@@ -27,13 +27,7 @@ def run_study(
     What is finished there already is taken as it is; when everything is, so are the figures and
     the report.
 
-    Parameters
-    ----------
-    study : Study
-    out_dir : str or Path
-    jobs : int
-        Pieces of work at once, each in another process.
-    reporter : Reporter, optional
+    `jobs` pieces of work are computed at once, each in another process.
 
     Raises
     ------
@@ -44,14 +38,18 @@ def run_study(
     """
     reporter, out_dir = reporter or Quiet(), Path(out_dir)
     plan = _planned(study, out_dir, reporter)
-    if (done := finished_results(plan)) is not None:
+    if (done := _finished_results(plan)) is not None:
         reporter.note(f"{out_dir}: all results are there and up to date")
         return done
     results = _computed(plan, jobs, reporter)
     with reporter.stage("writing the results"):
-        written = write(results, out_dir)
-    written += render(results, out_dir, reporter)
-    _mark_finished(plan, written)
+        written = _write(results, out_dir)
+    with reporter.stage("drawing the figures"):
+        written += write_figures(results, out_dir)
+    with reporter.stage("typesetting the report"):
+        written.append(write_report(results, out_dir))
+    sums = {p.relative_to(out_dir).as_posix(): file_digest(p) for p in written}
+    Store(out_dir / RUNS).save(FINISHED, plan.key(), sums)
     return results
 
 
@@ -78,30 +76,16 @@ def _computed(plan: Plan, jobs: int, reporter: Reporter) -> StudyResults:
         return collect(plan, found)
 
 
-def write(results: StudyResults, out_dir: Path) -> list[Path]:
+def _write(results: StudyResults, out_dir: Path) -> list[Path]:
     """Write labelled results, and the kind's further files, of a study and its companions."""
     written = [*write_results(results, out_dir)]
     written += find_kind(results.kind).write_files(results, out_dir)
     for companion in results.companions:
-        written += write(companion, out_dir / companion.name)
+        written += _write(companion, out_dir / companion.name)
     return written
 
 
-def render(results: StudyResults, out_dir: Path, reporter: Reporter) -> list[Path]:
-    """Draw the figures of a study and its companions, and typeset the report."""
-    with reporter.stage("drawing the figures"):
-        written = write_figures(results, out_dir)
-    with reporter.stage("typesetting the report"):
-        written.append(write_report(results, out_dir))
-    return written
-
-
-def _mark_finished(plan: Plan, written: list[Path]) -> None:
-    sums = {p.relative_to(plan.out_dir).as_posix(): file_digest(p) for p in written}
-    Store(plan.out_dir / RUNS).save(FINISHED, plan.key(), sums)
-
-
-def finished_results(plan: Plan) -> StudyResults | None:
+def _finished_results(plan: Plan) -> StudyResults | None:
     """Results of a plan when all its output files are there, whole and up to date."""
     sums = Store(plan.out_dir / RUNS).load(FINISHED, plan.key()).value
     try:

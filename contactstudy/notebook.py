@@ -18,7 +18,7 @@ from contactstudy.study.terminal import TerminalReporter, print_check
 
 
 def load(study: str | Path, values: Mapping[str, Any] | None = None) -> Any:
-    """Read a study file of any kind and check it.
+    """Read a study file of any kind and check it; the study is frozen.
 
     Parameters
     ----------
@@ -27,11 +27,6 @@ def load(study: str | Path, values: Mapping[str, Any] | None = None) -> Any:
     values : mapping, optional
         Dotted key -> value in place of the file's, as in a study file:
         ``{"irregularity.seed": 2, "journey.speed": "200 km/h"}``.
-
-    Returns
-    -------
-    Study
-        Frozen; of the kind that the file's tables tell.
 
     Raises
     ------

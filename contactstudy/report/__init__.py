@@ -6,7 +6,7 @@ from pathlib import Path
 
 from contactstudy.figures import write_figures
 from contactstudy.files import writing
-from contactstudy.report.content import Content, content
+from contactstudy.report.content import content
 from contactstudy.report.typesetting import typeset
 from contactstudy.study.kind import find_kind
 from contactstudy.study.results import StudyResults
@@ -19,21 +19,9 @@ REPORT_FILE = "report.pdf"
 def write_report(results: StudyResults, out_dir: Path, timings: bool = False) -> Path:
     """Set the report of a study and of its companions.
 
-    Parameters
-    ----------
-    results : StudyResults
-        A finished study.
-    out_dir : Path
-        Its output directory. Figures are taken from out_dir/figures (of a companion from
-        out_dir/<companion>/figures) and drawn where one is missing.
-    timings : bool
-        Whether the run table shows seconds and memory. They depend on the machine, so without
-        them equal studies give equal bytes.
-
-    Returns
-    -------
-    Path
-        out_dir/report.pdf
+    Figures are taken from out_dir/figures (of a companion from out_dir/<companion>/figures) and
+    drawn where one is missing. With `timings` the run table shows seconds and memory, which depend
+    on the machine; without them equal studies give equal bytes.
     """
     out_dir = Path(out_dir)
     target = out_dir / REPORT_FILE
@@ -41,13 +29,9 @@ def write_report(results: StudyResults, out_dir: Path, timings: bool = False) ->
     with tempfile.TemporaryDirectory() as folder, writing(target) as path:
         root = Path(folder)
         _gather(results, out_dir, root / "figures")
-        path.write_bytes(typeset(root, ("template.typ", *_chapters(data)), data))
+        chapters = [data[key] for key in ("model", "limits") if data[key]]
+        path.write_bytes(typeset(root, ("template.typ", *chapters, "references.yml"), data))
     return target
-
-
-def _chapters(data: Content) -> list[str]:
-    """Files of the template that this report includes."""
-    return [data[key] for key in ("model", "limits") if data[key]] + ["references.yml"]
 
 
 def _gather(results: StudyResults, out_dir: Path, folder: Path) -> None:

@@ -15,15 +15,7 @@ Content = dict[str, Any]
 
 
 def content(results: StudyResults, timings: bool) -> Content:
-    """Everything that the template inserts, with figures named relative to the study's folder.
-
-    Parameters
-    ----------
-    results : StudyResults
-        A finished study.
-    timings : bool
-        Whether tables show seconds and memory.
-    """
+    """Everything that the template inserts, with figures named relative to the study's folder."""
     report = find_kind(results.kind).report(results, timings)
     tables = parameter_tables(results)
     data: Content = {
@@ -53,16 +45,11 @@ def _companion(results: StudyResults, timings: bool) -> Content:
 
 def _placed(parts: Sequence[Part], folder: str) -> list[Part]:
     """Parts whose figures lie in a folder of their own."""
-    return [
-        part
-        | {
-            "blocks": [
-                b | {"file": folder + b["file"]} if b["kind"] == "figure" else b
-                for b in part["blocks"]
-            ]
-        }
-        for part in parts
-    ]
+
+    def moved(block: Block) -> Block:
+        return block | {"file": folder + block["file"]} if block["kind"] == "figure" else block
+
+    return [part | {"blocks": [moved(block) for block in part["blocks"]]} for part in parts]
 
 
 def _provenance(results: StudyResults) -> list[Block]:

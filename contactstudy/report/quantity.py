@@ -16,27 +16,15 @@ _RAISED = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 def quantity(value: Any, unit: str = "") -> tuple[str, str]:
     """Value and unit as texts, with an SI prefix where that makes the number readable.
 
-    Parameters
-    ----------
-    value : float, int, bool, str, None or list of these
-        SI value.
-    unit : str
-        Its SI unit, as in the resolved study.
-
-    Returns
-    -------
-    tuple of str
-        Number and unit, e.g. ("65", "MN/m").
+    E.g. ("65", "MN/m") from an SI value (number, text, None or a list of these) and its SI unit.
     """
     if isinstance(value, bool):
         return ("yes" if value else "no"), ""
-    if value is None or value == "" or value == []:
+    if value is None or value in ("", [], ()):
         return "none", ""
     if isinstance(value, str):
         return value, ""
     if isinstance(value, list | tuple):
-        if not value:
-            return "none", ""
         return ", ".join(quantity(v)[0] for v in value), pretty_unit(unit)
     factor, prefix = 1.0, ""
     size = abs(float(value))
@@ -49,10 +37,10 @@ def quantity(value: Any, unit: str = "") -> tuple[str, str]:
         factor, prefix = 1e-6, "µ"
     elif unit in ("s", "m") and 0 < size < 0.1:
         factor, prefix = 1e-3, "m"
-    return plain(float(value) / factor), prefix + pretty_unit(unit)
+    return _plain(float(value) / factor), prefix + pretty_unit(unit)
 
 
-def plain(value: float) -> str:
+def _plain(value: float) -> str:
     """Up to six significant digits without trailing zeros; large whole numbers are grouped."""
     if float(value).is_integer() and 1e4 <= abs(value) < 1e7:
         return grouped(int(value))
@@ -70,11 +58,9 @@ def pretty_unit(unit: str) -> str:
     return raised.replace("*", "·")
 
 
-def percent(fraction: float, digits: int = 2) -> str:
+def percent(fraction: float | None, digits: int = 2) -> str:
     """Return a fraction in per cent to `digits` significant digits; a dash where undefined."""
-    if fraction is None or not np.isfinite(fraction):
-        return "–"
-    return rounded(100.0 * fraction, digits)
+    return rounded(None if fraction is None else 100.0 * fraction, digits)
 
 
 def fixed(value: float | None, decimals: int) -> str:

@@ -15,14 +15,8 @@ _SHARED = ("blocks.typ", "style.typ")
 def typeset(root: Path, template: tuple[str, ...], data: dict[str, Any]) -> bytes:
     """Set a document; equal data and figures give equal bytes.
 
-    Parameters
-    ----------
-    root : Path
-        A folder for the template's files, in which the figures are already.
-    template : tuple of str
-        Files of the template, the main one first.
-    data : dict
-        What the template inserts.
+    The template's files, the main one first, are put into the folder `root`, in which the figures
+    are already; they insert `data`.
     """
     for name in (*template, *_SHARED):
         shutil.copyfile(resource("report", name), root / name)

@@ -10,7 +10,7 @@ from contactstudy.files import writing
 from contactstudy.plot.draw import draw
 from contactstudy.plot.style import figure_style, save
 from contactstudy.plot.text import exact
-from contactstudy.report.blocks import Block, table, text
+from contactstudy.report.blocks import Block, bullets, figure, table, text
 from contactstudy.report.quantity import percent, pretty_unit, rounded
 from contactstudy.report.typesetting import typeset
 from contactstudy.verification.check import Cell, Check, ResultTable
@@ -26,12 +26,7 @@ def write_verification(
 ) -> Path:
     """Set out_dir/verification.pdf; its figures go into out_dir/figures as well.
 
-    Parameters
-    ----------
-    outcomes : sequence of CaseOutcome
-    about : dict
-        Versions and hash, see `contactstudy.verification.runner.about`.
-    out_dir : Path
+    `about` are versions and hash, see `contactstudy.verification.runner.about`.
     """
     with tempfile.TemporaryDirectory() as folder, writing(out_dir / PDF_FILE) as path:
         root = Path(folder)
@@ -60,16 +55,15 @@ def document(outcomes: Sequence[CaseOutcome], about: dict[str, Any]) -> dict[str
             if o.result is not None
         ],
         "provenance": [
-            {
-                "kind": "list",
-                "items": [
+            bullets(
+                [
                     f"Versions: {', '.join(f'{k} {v}' for k, v in versions.items())}.",
                     f"Hash of the program's code: {about['code']}.",
                     "Each case is run and printed by the command “contactstudy verify NAME”, and "
                     "asserted by the program's tests.",
                     "The same program gives the same bytes of this document.",
-                ],
-            }
+                ]
+            )
         ],
     }
 
@@ -98,12 +92,8 @@ def _summary(outcomes: Sequence[CaseOutcome]) -> list[Block]:
                 percent(_largest_share(own), 2) if own else "–",
             ]
         )
-    made = table(
-        ["Case", "What", "CaseStatus", "Kept", "Largest share of a band (%)"],
-        rows,
-        "Named cases.",
-        3,
-    )
+    columns = ["Case", "What", "CaseStatus", "Kept", "Largest share of a band (%)"]
+    made = table(columns, rows, "Named cases.", 3)
     made["columns"][1]["wide"] = True
     return [text(lines), made]
 
@@ -120,9 +110,7 @@ def _case(outcome: CaseOutcome) -> list[Block]:
     blocks = [text(" ".join(p.split())) for p in result.method.split("\n\n")]
     blocks.append(_checks(result.checks))
     blocks += [_table(t) for t in result.tables]
-    for k, plot in enumerate(result.figures):
-        file = f"{_figure(outcome, k)}.pdf"
-        blocks.append({"kind": "figure", "file": file, "caption": plot.caption})
+    blocks += [figure(_figure(outcome, k), p.caption) for k, p in enumerate(result.figures)]
     return blocks
 
 
@@ -167,12 +155,10 @@ def _band(check: Check) -> str:
 
 def _table(content: ResultTable) -> Block:
     rows = [[_cell(cell) for cell in row] for row in content.rows]
-    left = [
-        all(isinstance(row[i], str) for row in content.rows) for i in range(len(content.header))
-    ]
     made = table(list(content.header), rows, content.caption, 0)
-    for column, is_text in zip(made["columns"], left, strict=True):
-        column["align"] = "left" if is_text else "right"
+    for i, column in enumerate(made["columns"]):
+        if all(isinstance(row[i], str) for row in content.rows):
+            column["align"] = "left"
     if len(content.header) > 7:
         made["size"] = 8
     return made

@@ -11,18 +11,7 @@ from contactstudy.validation import Entry, Parameter, Table, entries
 
 
 def key_reference(tables: Mapping[str, Table]) -> str:
-    """Table of the keys of each table of a file.
-
-    Parameters
-    ----------
-    tables : mapping of str to type of Parameters or Variants
-        Name as it stands in a file, e.g. "track" or "runs.NAME" -> what it is read as.
-
-    Returns
-    -------
-    str
-        Markdown.
-    """
+    """Markdown table of the keys of each table, by its name in a file: "track", "runs.NAME"."""
     return "\n\n".join(_section(name, table) for name, table in tables.items()) + "\n"
 
 

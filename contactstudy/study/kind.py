@@ -75,87 +75,56 @@ class Study(Protocol):
 
 @dataclass(frozen=True)
 class Inputs:
-    """What a study reads before anything is computed.
+    """What a study reads before anything is computed."""
 
-    Attributes
-    ----------
-    config : mapping
-        The resolved study; of paths only the file's name, because paths are the machine's.
-    files : mapping of str to str
-        Name of each input file -> SHA-256 of its content.
-    warnings : tuple of str
-        For the user.
-    groups : callable
-        What belongs to the study and not to one run: name -> xarray.Dataset. Called when results
-        are written.
-    seed : int or None
-        Of what is random.
-    mesh : callable
-        Recipe of the mesh for the provenance, or None; called as `groups` is.
-    """
-
+    #: The resolved study; of paths only the file's name, because paths are the machine's.
     config: Mapping[str, Any]
+    #: Name of each input file -> SHA-256 of its content.
     files: Mapping[str, str] = field(default_factory=dict)
+    #: For the user.
     warnings: tuple[str, ...] = ()
+    #: What belongs to the study and not to one run, by name; called when results are written.
     groups: Callable[[], Mapping[str, xr.Dataset]] = dict
+    #: Of what is random.
     seed: int | None = None
+    #: Recipe of the mesh for the provenance, or None; called as `groups` is.
     mesh: Callable[[], dict[str, Any] | None] = lambda: None
 
 
 @dataclass(frozen=True)
 class Work:
-    """A piece of a study's work, computed at one go and kept by itself.
+    """A piece of a study's work, computed at one go and kept by itself."""
 
-    Attributes
-    ----------
-    name : str
-        Letters, digits and _; distinct within the study.
-    inputs : object
-        Plain data: all that goes into it besides input files, code and packages.
-    title : str
-        What messages call it; "run NAME" if empty.
-    bar : str
-        Progress bar that it shares with others, in pieces; its own, in steps, if empty.
-    long : bool
-        Whether it takes long: such ones start first, so that the short ones fill the gaps.
-    light : bool
-        Whether it takes less time than a process takes to start, and little memory.
-    """
-
+    #: Letters, digits and _; distinct within the study.
     name: str
+    #: Plain data: all that goes into it besides input files, code and packages.
     inputs: Any
+    #: What messages call it; "run NAME" if empty.
     title: str = ""
+    #: Progress bar that it shares with others, in pieces; its own, in steps, if empty.
     bar: str = ""
+    #: Whether it takes long: such ones start first, so that the short ones fill the gaps.
     long: bool = False
+    #: Whether it takes less time than a process takes to start, and little memory.
     light: bool = False
 
 
 @dataclass(frozen=True)
 class Report:
-    """What a kind has to say of a study in the report, as plain data.
+    """What a kind has to say of a study in the report, as plain data."""
 
-    Attributes
-    ----------
-    abstract : sequence of str
-        Paragraphs.
-    subject : sequence of Block
-        What is computed, after the study's description.
-    sources : Block or None
-        Paragraph above the tables of parameters.
-    parts : sequence of Part
-        Results; the ``file`` of a figure's block is its drawing's name and ".pdf".
-    as_companion : sequence of Part or None
-        Its parts in another study's report; `parts` if None.
-    model, limits : str
-        Template files with what holds for every study of the kind, before the parameters and
-        after the results; none if empty.
-    """
-
+    #: Paragraphs.
     abstract: Sequence[str]
+    #: Results; the ``file`` of a figure's block is its drawing's name and ".pdf".
     parts: Sequence[Part]
+    #: What is computed, after the study's description.
     subject: Sequence[Block] = ()
+    #: Paragraph above the tables of parameters.
     sources: Block | None = None
+    #: Its parts in another study's report; `parts` if None.
     as_companion: Sequence[Part] | None = None
+    #: Template files with what holds for every study of the kind, before the parameters and
+    #: after the results; none if empty.
     model: str = ""
     limits: str = ""
 
@@ -234,6 +203,19 @@ class Kind:
             f"study {study.name}: is a study of {self.name} (table [{self.name}]); only "
             "'contactstudy check', 'run' and 'reproduce' take it"
         )
+
+
+class _Later:
+    def __init__(self, place: str) -> None:
+        self._place = place
+
+    def __get__(self, kind: Kind | None, owner: type) -> Any:
+        return imported(self._place)
+
+
+def later(place: str) -> Any:
+    """A method of a kind as a function elsewhere, "module:function", imported when asked for."""
+    return _Later(place)
 
 
 def find_kind(name: str) -> Kind:

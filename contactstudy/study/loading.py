@@ -12,7 +12,7 @@ from contactstudy.exceptions import InputError
 from contactstudy.resources import resource
 from contactstudy.study.kind import kind_of_file
 from contactstudy.study.overrides import Overrides
-from contactstudy.validation import complaint, did_you_mean
+from contactstudy.validation import complaint, did_you_mean, raise_if
 
 # of a study's results, beside which those of its companions lie
 _FOLDERS = ("runs", "figures", "fields")
@@ -52,8 +52,7 @@ def load_study(study: str | Path, overrides: Overrides = (), main: Any = None) -
     study : str or Path
         A path, or the name of a shipped study.
     overrides : iterable of str, or mapping
-        ``key=value`` with dotted keys; values as in TOML, quotes around text may be left out. Or
-        dotted key -> value as in the file.
+        See `contactstudy.study.overrides`.
     main : Study, optional
         The study that this one accompanies: a passage takes track, vehicle, journey and solid
         from it where the file has no such table, so that both are about the same wheel and rail.
@@ -104,8 +103,7 @@ def load_companions(study: Any) -> list[Any]:
             )
         taken[made.name] = f"the companion {name}"
         found.append(made)
-    if problems:
-        raise InputError(problems)
+    raise_if(problems)
     return found
 
 

@@ -9,7 +9,10 @@ from typing import Any
 from contactstudy.validation import Table, entries
 
 Overrides = Iterable[str] | Mapping[str, Any]
-"""``key=value`` as on a command line, or dotted key -> value as in a study file."""
+"""``key=value`` as on a command line, or dotted key -> value as in a study file.
+
+Values as in TOML; on a command line quotes around text may be left out.
+"""
 
 
 def override(
@@ -23,22 +26,8 @@ def override(
     A key of the file that means nothing beside an overridden one (the seed, once the spectrum
     is "smooth") is left out; one that was itself overridden stays, to be complained about.
 
-    Parameters
-    ----------
-    data : dict
-        Content as TOML gives it.
-    values : iterable of str, or mapping
-        ``key=value``; values as in TOML, quotes around text may be left out. Or key -> value as
-        TOML would give it.
-    tables : mapping of str to type of Parameters or Variants
-        The tables of the file.
-    groups : mapping, optional
-        The same for tables in tables, "runs" for ``[runs.NAME]``.
-
-    Returns
-    -------
-    list of str
-        Complaints.
+    `tables` are those of the file, `groups` tables in tables, "runs" for ``[runs.NAME]``. Returns
+    complaints.
     """
     groups, problems = groups or {}, list[str]()
     if not isinstance(values, Mapping):

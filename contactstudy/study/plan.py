@@ -18,22 +18,12 @@ RUNS = "runs"
 
 @dataclass(frozen=True, eq=False)
 class Piece:
-    """A piece of work of one variant of a study.
-
-    Attributes
-    ----------
-    variant : str
-        "" for the study as it is.
-    study : Study
-        Of the variant.
-    work : Work
-    key : str
-        Hash of everything that goes into it, code included.
-    """
+    """A piece of work of one variant of a study; the study as it is, is the variant ""."""
 
     variant: str
     study: Study
     work: Work
+    #: Hash of everything that goes into it, code included.
     key: str
 
     @property

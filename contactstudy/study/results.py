@@ -34,46 +34,30 @@ METRICS_FILE = "metrics.json"
 
 @dataclass(frozen=True)
 class StudyResults:
-    """A finished study.
-
-    Attributes
-    ----------
-    name, title, description : str
-        As in the study file; ``name`` is the file's stem.
-    config : mapping
-        The resolved study as nested plain dicts, SI values (numbers, strings, booleans, lists).
-    units : mapping of str to str
-        Dotted key of ``config`` -> SI unit of its value; keys without unit are left out.
-    runs : mapping of str to xarray.Dataset
-        One dataset a run in the order of the study file; a run of a variant is "variant/run".
-    reference : str or None
-        Name of the run the others are compared with; None when there is nothing to compare.
-    metrics : mapping
-        Content of ``metrics.json``. Its ``runs.<name>.seconds`` and ``peak_memory_mb`` depend
-        on the machine.
-    kind : str
-        What the study computes, see `contactstudy.study.kind`.
-    groups : mapping of str to xarray.Dataset
-        What belongs to the study and not to one run; names are those of groups in ``result.nc``.
-    provenance : mapping
-        ``seed``, ``hash`` (of all parameters), ``versions`` (package -> version), ``mesh``
-        (the recipe of the solid rail, or None), ``files`` (input file -> SHA-256), ``sources``
-        (lines of text about input files).
-    companions : tuple of StudyResults
-        Studies whose results stand in the same report.
-    """
+    """A finished study; name (the file's stem), title and description are the study file's."""
 
     name: str
     title: str
     description: str
+    #: The resolved study as nested plain dicts, SI values (numbers, strings, booleans, lists).
     config: Mapping[str, Any]
+    #: Dotted key of ``config`` -> SI unit of its value; keys without unit are left out.
     units: Mapping[str, str]
+    #: One dataset a run in the order of the study file; a run of a variant is "variant/run".
     runs: Mapping[str, xr.Dataset]
+    #: Name of the run the others are compared with; None when there is nothing to compare.
     reference: str | None
+    #: Content of ``metrics.json``. Its ``runs.<name>.seconds`` and ``peak_memory_mb`` depend on
+    #: the machine.
     metrics: Mapping[str, Any]
+    #: What the study computes, see `contactstudy.study.kind`.
     kind: str = "passage"
+    #: What belongs to the study and not to one run; names are those of groups in ``result.nc``.
     groups: Mapping[str, xr.Dataset] = field(default_factory=dict)
+    #: ``seed``, ``hash`` (of all parameters), ``versions`` (package -> version), ``mesh`` (the
+    #: recipe of the solid rail, or None), ``files`` (input file -> SHA-256).
     provenance: Mapping[str, Any] = field(default_factory=dict)
+    #: Studies whose results stand in the same report.
     companions: tuple[StudyResults, ...] = ()
 
     @property

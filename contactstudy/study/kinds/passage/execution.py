@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from contactstudy.executor import Progress
-from contactstudy.solids.cache import CachedBody, cached
+from contactstudy.executor import Progress, Task
+from contactstudy.solids.cache import CachedBody, cached, is_cached
 from contactstudy.solvers import observers
 from contactstudy.solvers.observers import Observer
 from contactstudy.study.kinds.passage import build
@@ -20,13 +20,7 @@ if TYPE_CHECKING:
 def execute_run(study: Study, run: str, progress: Progress | None = None) -> xr.Dataset:
     """Build the domain objects of a run, call its solver, return its dataset.
 
-    Parameters
-    ----------
-    study : Study
-    run : str
-        Name of one of its runs.
-    progress : callable, optional
-        Called with steps done and steps in all.
+    `progress` is called with steps done and steps in all.
     """
     table = study.runs[run]
     if isinstance(table, SurfaceRun):
@@ -71,6 +65,15 @@ def _surface(study: Study, run: str, table: SurfaceRun, progress: Progress | Non
 
 def _reports(progress: Progress | None) -> tuple[Observer, ...]:
     return () if progress is None else (observers.ReportProgress(progress),)
+
+
+def condensing(study: Study, run: str) -> list[Task]:
+    """Condensing the bodies of a run that the cache does not have."""
+    return [
+        Task(f"condensing the {body.name}", condense_body, (body,))
+        for body in build.bodies(study, run)
+        if not is_cached(body)
+    ]
 
 
 def condense_body(body: CachedBody[Any], progress: Progress | None = None) -> None:

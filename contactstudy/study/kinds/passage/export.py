@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from contactstudy.exceptions import InputError
 from contactstudy.export.calculix import PressLoading, calculix_input
-from contactstudy.export.press_mesh import PressMesh, press_mesh
+from contactstudy.export.press_mesh import press_mesh
 from contactstudy.files import writing
 from contactstudy.geometry.placement import Geometry
 from contactstudy.geometry.pose import Pose
@@ -29,47 +28,23 @@ REPEATS = 2
 """Further steps of whole sections, see `PressLoading`."""
 
 
-@dataclass(frozen=True)
-class Exported:
-    """What was written.
-
-    Attributes
-    ----------
-    load, length : float
-        Wheel load in N and length of the rail in m.
-    mesh : PressMesh
-    """
-
-    load: float
-    length: float
-    mesh: PressMesh
-
-
 def export_press(
     study: Study,
     out: Path,
     run: str | None = None,
     load: str | None = None,
     rail_length: str | None = None,
-) -> Exported:
-    """Write the input file.
+) -> str:
+    """Write the input file of the static press; what to tell the user.
 
     Parameters
     ----------
-    study : Study
-        With a run of surface contact.
-    out : Path
-        File to write.
     run : str, optional
         Which run; the reference or the first one of surface contact when not given.
     load : str, optional
         Wheel load, a number in N or text with a unit; the vehicle's static load when not given.
     rail_length : str, optional
         The same in m; `CELLS` rail cells when not given.
-
-    Returns
-    -------
-    Exported
 
     Raises
     ------
@@ -122,7 +97,10 @@ def export_press(
     text = calculix_input(mesh, loading, cell.youngs_modulus, cell.poisson_ratio, header)
     with writing(out) as temporary:
         temporary.write_text(text, "ascii", errors="replace")
-    return Exported(newtons, length, mesh)
+    return (
+        f"{out}: {len(mesh.nodes)} nodes, {len(mesh.elements)} elements, "
+        f"{newtons:.6g} N on {length:g} m of rail"
+    )
 
 
 def _axes(pose: Pose, symmetric: bool) -> tuple[str, ...]:

@@ -37,13 +37,20 @@ _PARTS = ("patch", "below")
 _BESIDE, _DEEP, _STEP = 0.75, 3.0, 0.125
 
 
+def write_files(results: StudyResults, out_dir: Path) -> list[Path]:
+    """Fields for ParaView and the animation of the patch, of the runs that kept some."""
+    written = write_fields(results, out_dir)
+    if any("frame_pressure" in run.variables for run in results.runs.values()):
+        from contactstudy.figures.animation import write_animations
+
+        written += write_animations(results, out_dir)
+    return written
+
+
 def write_fields(results: StudyResults, out_dir: Path) -> list[Path]:
     """Write the fields of all runs that kept some into `out_dir`/fields.
 
-    Returns
-    -------
-    list of Path
-        The files written; none where no instants were chosen. Equal results give equal bytes.
+    None where no instants were chosen. Equal results give equal bytes.
     """
     folder, written = Path(out_dir) / FIELDS, list[Path]()
     for name, run in results.runs.items():
@@ -69,11 +76,7 @@ def write_fields(results: StudyResults, out_dir: Path) -> list[Path]:
 def patch_mesh(run: xr.Dataset, instant: int) -> meshio.Mesh:
     """Tread nodes as quadrilaterals; both halves of a symmetric model.
 
-    Parameters
-    ----------
-    run : xarray.Dataset
-        With fields at instants, see `contactstudy.solvers.patch_fields`.
-    instant : int
+    The run has fields at instants, see `contactstudy.solvers.patch_fields`.
     """
     import meshio
 

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import lru_cache
+from typing import Any
 
 from rich.table import Table
 
 from contactstudy.exceptions import InputError
+from contactstudy.reporter import Reporter
 from contactstudy.solids.cache import is_cached
 from contactstudy.study.kinds.passage import build
 from contactstudy.study.kinds.passage.runs import PointRun
@@ -24,17 +25,8 @@ POINT_STEP, POINT_STEP_PER_DOF = 20e-6, 0.05e-6  # s
 SOLID_STEP, SOLID_STEP_PER_DOF = 300e-6, 0.2e-6  # s
 
 
-@dataclass(frozen=True)
-class Forecast:
-    """Size of a run and the seconds it will take, about."""
-
-    dofs: int
-    steps: int
-    seconds: float
-
-
-def forecast(study: Study, run: str, track: Track) -> Forecast:
-    """Forecast of one run of a study on its `track`."""
+def _forecast(study: Study, run: str, track: Track) -> tuple[int, int, float]:
+    """Dofs and steps of one run of a study on its `track`, and the seconds it will take, about."""
     table = study.runs[run]
     steps = build.journey(study, run).n_steps
     wheels = study.vehicle.vehicle().n_dofs
@@ -42,10 +34,9 @@ def forecast(study: Study, run: str, track: Track) -> Forecast:
         theory = "timoshenko" if table.rail == "timoshenko" else "euler"
         beam = theory, table.elements_per_bay, table.local_compliance, table.direction
         dofs = _beam_dofs(track, *beam) + wheels
-        return Forecast(dofs, steps, START + steps * (POINT_STEP + POINT_STEP_PER_DOF * dofs))
+        return dofs, steps, START + steps * (POINT_STEP + POINT_STEP_PER_DOF * dofs)
     dofs = solid_dofs(study, track) + wheels
-    seconds = START + steps * (SOLID_STEP + SOLID_STEP_PER_DOF * dofs)
-    return Forecast(dofs, steps, seconds)
+    return dofs, steps, START + steps * (SOLID_STEP + SOLID_STEP_PER_DOF * dofs)
 
 
 @lru_cache(maxsize=32)
@@ -76,23 +67,23 @@ def solid_dofs(study: Study, track: Track) -> int:
     return planes + cells * solid.internal_modes + below - held
 
 
-def needs(studies: Sequence[Study]) -> list[str | Table]:
-    """What `check` prints of a study and its companions: static contact, sizes, expected time.
+def needs(study: Study, companions: Sequence[Any], reporter: Reporter) -> list[str | Table]:
+    """Static contact, sizes of the runs of a study and its companions, and the expected time.
 
     Raises
     ------
     InputError
         When a profile or a scan cannot be used.
     """
-    study = studies[0]
+    studies = [study, *(c for c in companions if isinstance(c, Study))]
     found: list[str | Table] = [_contact(study)] if study.runs else []
     sizes, times = Table("run", "dofs", "steps", "expected time (s)"), [0.0]
     for one in studies:
         for name in one.runs:
-            size = forecast(one, name, build.track(one))
+            dofs, steps, seconds = _forecast(one, name, build.track(one))
             label = name if one is study else f"{one.name}: {name}"
-            times.append(size.seconds)
-            sizes.add_row(label, str(size.dofs), str(size.steps), f"{size.seconds:.0f}")
+            times.append(seconds)
+            sizes.add_row(label, str(dofs), str(steps), f"{seconds:.0f}")
     if len(times) == 1:
         return [*found, "no runs: figures of the irregularity only"]
     seconds = max(*times, sum(times) / 2) + _condensation(studies)

@@ -9,13 +9,16 @@ from typing import Any
 from contactstudy.files import file_digest
 from contactstudy.irregularity.shown import to_dataset
 from contactstudy.profiles.wheel_file import named_file_digest
-from contactstudy.study.kind import Inputs
-from contactstudy.study.kinds.passage.build import recipe
+from contactstudy.study.kind import Inputs, Work
+from contactstudy.study.kinds.passage.build import journey, recipe
 from contactstudy.study.kinds.passage.placing import contact_zone, scan_meeting
 from contactstudy.study.kinds.passage.roughness import describe
 from contactstudy.study.kinds.passage.scan import PATHS as SCAN_PATHS
 from contactstudy.study.kinds.passage.schema import IRREGULARITY, Study
 from contactstudy.study.kinds.passage.wheelset import PATHS as WHEELSET_PATHS
+
+#: Steps of a beam that take about as long as a process takes to start.
+LIGHT = 20_000
 
 
 def read_inputs(study: Study) -> Inputs:
@@ -76,7 +79,19 @@ def _scans(study: Study, config: dict[str, Any], files: dict[str, str]) -> tuple
     )
 
 
-def run_inputs(study: Study, inputs: Inputs, run: str) -> list[Any]:
+def work(study: Study, inputs: Inputs) -> list[Work]:
+    """A piece a run."""
+
+    def light(run: str) -> bool:
+        return not study.meshes_rail(run) and journey(study, run).n_steps <= LIGHT
+
+    return [
+        Work(name, _run_inputs(study, inputs, name), long=run.needs_solid, light=light(name))
+        for name, run in study.runs.items()
+    ]
+
+
+def _run_inputs(study: Study, inputs: Inputs, run: str) -> list[Any]:
     """Everything that goes into one run, as plain data; the contents of files stand apart."""
     shared = {k: v for k, v in inputs.config.items() if k not in ("runs", "compare", "solid")}
     # Beams take their section from the solid's mesh, so its size matters to them as well.

@@ -27,11 +27,20 @@ import numpy as np
 from contactstudy.arrays import Array
 from contactstudy.compare import norms
 from contactstudy.compare.bands import level_differences
+from contactstudy.study.kinds.passage.schema import Study
 
 if TYPE_CHECKING:
     import xarray as xr
 
 SIGNALS = ("contact_force", "wheel_displacement", "wheel_acceleration", "rail_displacement")
+
+
+def metrics(
+    study: Study, runs: Mapping[str, xr.Dataset], costs: Mapping[str, Mapping[str, Any]]
+) -> dict[str, Any]:
+    """Content of ``metrics.json``, the norms behind the fade-in."""
+    compare_from = study.journey.start + study.journey.fade_in
+    return study_metrics(runs, costs, study.reference, compare_from)
 
 
 def study_metrics(
@@ -40,18 +49,9 @@ def study_metrics(
     reference: str | None,
     compare_from: float,
 ) -> dict[str, Any]:
-    """Content of ``metrics.json``.
+    """Content of ``metrics.json``; compared from the wheel position `compare_from` [m] on.
 
-    Parameters
-    ----------
-    runs : mapping of str to xarray.Dataset
-        The finished runs.
-    costs : mapping of str to mapping
-        ``seconds`` and ``peak_memory_mb`` of each run.
-    reference : str or None
-        Run that the others are compared with, if it is among `runs`.
-    compare_from : float
-        First wheel position of the comparison in m: the end of the fade-in.
+    `costs` holds ``seconds`` and ``peak_memory_mb`` of each run.
     """
     result: dict[str, Any] = {
         "runs": {
@@ -85,14 +85,13 @@ def _penetration(run: xr.Dataset) -> dict[str, float]:
 def compare_runs(run: xr.Dataset, reference: xr.Dataset, start: float) -> dict[str, Any]:
     """Norms of each signal of `run` against `reference`, from the position `start` [m] on."""
     return {
-        name: compare_signals(run, reference, name, start)
+        name: _compare_signals(run, reference, name, start)
         for name in SIGNALS
         if name in run and name in reference
     }
 
 
-def compare_signals(run: xr.Dataset, reference: xr.Dataset, name: str, start: float) -> Any:
-    """Norms of one signal; see the module's text for the keys."""
+def _compare_signals(run: xr.Dataset, reference: xr.Dataset, name: str, start: float) -> Any:
     x_run, x_reference = _position(run), _position(reference)
     x = norms.common_positions(x_run, x_reference, start)
     a_all, b_all = run[name].values, reference[name].values

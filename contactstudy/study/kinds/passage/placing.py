@@ -9,7 +9,6 @@ from functools import lru_cache
 import numpy as np
 
 from contactstudy.arrays import Array
-from contactstudy.exceptions import InputError
 from contactstudy.geometry.placement import Geometry
 from contactstudy.geometry.pose import Pose
 from contactstudy.geometry.smooth_touch import SmoothTouch
@@ -23,6 +22,7 @@ from contactstudy.solids.section_outline import fine_reach
 from contactstudy.solids.wheel_section import fine_arcs
 from contactstudy.study.kinds.passage.schema import Study
 from contactstudy.study.kinds.passage.wheelset import complaint_of_position
+from contactstudy.validation import raise_if
 
 RAIL_MARGIN = 0.002
 """m, by which the rail's fine running surface reaches beyond the wheel's contact points."""
@@ -37,15 +37,7 @@ _FELT, _LITTLE = 0.1e-3, 0.5e-3  # m, sideways: less hardly moves the patch, or 
 
 @dataclass(frozen=True)
 class ContactZone:
-    """Finely meshed zones of a wheel and its rail.
-
-    Attributes
-    ----------
-    wheel : float
-        Middle of the wheel's zone, arc length on its profile in m.
-    rail : tuple of float
-        Ends of the rail's zone, arc lengths from its crown in m.
-    """
+    """Finely meshed zones: the wheel's middle, the rail's ends, as arc lengths in m."""
 
     wheel: float
     rail: tuple[float, float]
@@ -162,8 +154,7 @@ def contact_zone(study: Study) -> ContactZone:
             f"behind its lowest point; solid.contact_half_length = "
             f"{1e3 * solid.contact_half_length:g} mm must be larger, by the patch's semi-axis"
         )
-    if problems:
-        raise InputError(problems)
+    raise_if(problems)
     return ContactZone(middle, (low, high))
 
 

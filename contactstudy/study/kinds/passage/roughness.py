@@ -21,22 +21,14 @@ CURVE_POINTS = 400  # of a spectrum's formula
 
 @dataclass(frozen=True)
 class Described:
-    """What is known of a study's irregularity before anything runs.
-
-    Attributes
-    ----------
-    study : Study
-    profile : Profile
-        Of its runs.
-    measured : tuple of MeasuredProfile
-        A measured level of the study as it is and band-passed; nothing without one.
-    warnings : tuple of str
-        For the user, e.g. that the profile repeats itself.
-    """
+    """What is known of a study's irregularity before anything runs."""
 
     study: Study
+    #: Of its runs.
     profile: irr.Profile
+    #: A measured level of the study as it is and band-passed; nothing without one.
     measured: tuple[irr.MeasuredProfile, ...]
+    #: For the user, e.g. that the profile repeats itself.
     warnings: tuple[str, ...]
 
     @cached_property
@@ -65,13 +57,8 @@ class Described:
 def irregularity_of(study: Study, smooth: bool = False, direction: Direction = "Z") -> irr.Profile:
     """The profile of a study's runs.
 
-    Parameters
-    ----------
-    study : Study
-    smooth : bool
-        Whether the run asks for a smooth rail.
-    direction : {"Z", "Y"}
-        Vertical, or the seed's independent transverse profile.
+    None of it for a run that asks for a smooth rail; in direction Y the seed's independent
+    transverse profile.
 
     Raises
     ------

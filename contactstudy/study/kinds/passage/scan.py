@@ -19,6 +19,7 @@ from contactstudy.validation import (
     Parameters,
     Unit,
     complaint,
+    raise_if,
 )
 from contactstudy.validation import quantities as q
 
@@ -89,12 +90,11 @@ class ScanFiles(Parameters):
             try:
                 path = Path(file)
                 changed = path.stat().st_mtime_ns if file and path.is_file() else 0
-                settings = (origin, self.smoothing, self.residual_limit)
-                found.append(_read(file, unit, body, changed, *settings) if file else None)
+                scanned = (file, unit, body, origin, self.smoothing, self.residual_limit)
+                found.append(_read(changed, *scanned) if file else None)
             except InputError as error:
                 problems += [f"scan.{body}: {problem}" for problem in error.problems]
-        if problems:
-            raise InputError(problems)
+        raise_if(problems)
         return found[0], found[1]
 
     def curves(self, rail: ProfileCurve, wheel: ProfileCurve) -> tuple[ProfileCurve, ProfileCurve]:
@@ -115,12 +115,8 @@ class ScanFiles(Parameters):
     ) -> Meeting:
         """First touch of the scans, and whether their facets cover the zone of contact.
 
-        Parameters
-        ----------
-        rail, wheel : ProfileCurve
-            The drawn profiles, for a body that is not scanned.
-        radius, pose, half_length, half_width
-            As in `contactstudy.scans.meeting`.
+        The drawn profiles serve for a body that is not scanned; for the rest see
+        `contactstudy.scans.meeting`.
 
         Raises
         ------
@@ -128,17 +124,14 @@ class ScanFiles(Parameters):
             If they never touch, have holes there, or the wheel's radius is another one.
         """
         scans = self.surfaces()
-        problems = []
         if scans[1] is not None:
             fit = scans[1].fit
             # a hundredth of the radius, or what a short scan leaves open
             if abs(fit.radius - radius) > max(0.01 * radius, 4.0 * fit.radius_error):
-                problems.append(
+                raise InputError(
                     f"vehicle.wheel_radius = {radius:g} m: the scan {scans[1].name} has "
                     f"{fit.radius:.4g} m at its tape circle"
                 )
-        if problems:
-            raise InputError(problems)
         try:
             return meeting(
                 scans[0] or rail, scans[1] or wheel, radius, pose, half_length, half_width
@@ -158,14 +151,6 @@ class ScanFiles(Parameters):
 
 
 @lru_cache(maxsize=8)
-def _read(
-    file: str,
-    unit: str,
-    body: Literal["rail", "wheel"],
-    changed: int,
-    origin: float,
-    smoothing: float,
-    limit: float,
-) -> Scan:
-    # a file that has changed is read again
-    return read_scan(file, unit, body, origin, smoothing, limit)
+def _read(changed: int, *scanned: Any) -> Scan:
+    """A scan; of a file that has changed it is read again."""
+    return read_scan(*scanned)

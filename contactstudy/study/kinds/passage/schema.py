@@ -44,21 +44,9 @@ IRREGULARITY = "irregularity"
 
 @dataclass(frozen=True)
 class Study:
-    """A study file that has been read and found possible.
+    """A study file that has been read and found possible: its tables, and its `runs` in order.
 
-    Attributes
-    ----------
-    name : str
-        Stem of the file.
-    title, description : str
-    companions : tuple of str
-        Shipped studies (or paths) whose results stand in the same report.
-    irregularity, track, vehicle, journey, solid, wheelset, scan : Parameters
-        Tables of the file.
-    runs : dict of str to PointRun or SurfaceRun
-        In the order of the file; none for a study of the irregularity alone.
-    reference : str or None
-        Run that the others are compared with.
+    A study of the irregularity alone has no runs.
     """
 
     kind: ClassVar[str] = "passage"

@@ -106,11 +106,7 @@ class Solid(Parameters):
     def problems_on(self, track: Track, meshed: bool) -> list[str]:
         """What cannot be meshed on a track, by key.
 
-        Parameters
-        ----------
-        track : Track
-        meshed : bool
-            Whether a run is on the meshed rail; else only a contact stiffness is taken from it.
+        Unless a run is on the ``meshed`` rail, only a contact stiffness is taken from it.
         """
         problems = []
         if track.rail.profile_name is None:

@@ -11,19 +11,15 @@ import numpy as np
 
 from contactstudy.exceptions import ContactStudyError, InputError
 from contactstudy.geometry.pose import Pose
-from contactstudy.geometry.wheelset import (
-    SIDES,
-    Side,
-    Wheelset,
-    WheelsetDimensions,
-)
+from contactstudy.geometry.wheelset import SIDES, Side, Wheelset, WheelsetDimensions
 from contactstudy.profiles.curve import ProfileCurve
 from contactstudy.profiles.named import rail_curve, wheel_curve
-from contactstudy.validation import AtLeast, AtMost, File, Naming, Unit
+from contactstudy.validation import AtLeast, AtMost, File, Naming, Unit, raise_if
 from contactstudy.validation import quantities as q
 
 PATHS = ("wheel_profile", "rail_profile")
 """Keys that may hold a file's name instead of a profile's."""
+_MAKERS = {"rail_profile": rail_curve, "wheel_profile": wheel_curve}
 CLIMBED = math.atan(0.5)
 """Contact angle on the flange's tip below which a wheel counts as derailed: our limit.
 
@@ -59,25 +55,13 @@ class WheelsetPosition(WheelsetDimensions):
     ] = "rest"
 
     def curves(self, meshed_rail: str) -> tuple[ProfileCurve, ProfileCurve]:
-        """Smooth profiles of rail and wheel.
-
-        Raises
-        ------
-        InputError
-            Naming the keys whose profile does not exist or cannot be read.
-        """
-        problems, found = [], []
-        for key, make, name in (
-            ("rail_profile", rail_curve, self.rail_profile or meshed_rail),
-            ("wheel_profile", wheel_curve, self.wheel_profile),
-        ):
-            try:
-                found.append(make(name))
-            except InputError as error:
-                problems += [f"wheelset.{key}: {problem}" for problem in error.problems]
-        if problems:
-            raise InputError(problems)
-        return found[0], found[1]
+        """Smooth profiles of rail and wheel."""
+        rail, wheel = smooth_profiles(
+            lambda name: f"wheelset.{name}",
+            rail_profile=self.rail_profile or meshed_rail,
+            wheel_profile=self.wheel_profile,
+        )
+        return rail, wheel
 
     def pose(self, rail: ProfileCurve, wheel: ProfileCurve, radius: float) -> Pose:
         """Position of the wheel on its rail.
@@ -88,6 +72,24 @@ class WheelsetPosition(WheelsetDimensions):
             If the wheelset does not fit on the track, or has climbed a rail.
         """
         return _pose(self, rail, wheel, radius)
+
+
+def smooth_profiles(key: Naming, **names: str) -> list[ProfileCurve]:
+    """Profiles by ``rail_profile`` and ``wheel_profile``, in the order of these names.
+
+    Raises
+    ------
+    InputError
+        Naming each `key` whose profile does not exist or cannot be read.
+    """
+    problems, found = [], []
+    for name, profile in names.items():
+        try:
+            found.append(_MAKERS[name](profile))
+        except InputError as error:
+            problems += [f"{key(name)}: {problem}" for problem in error.problems]
+    raise_if(problems)
+    return found
 
 
 def problems_of(table: WheelsetPosition, meshed_rail: str, radius: float) -> list[str]:
@@ -122,14 +124,7 @@ def complaint_of_position(key: str, shift: float, yaw: float) -> str:
 
 
 def off_track(key: Naming, wheelset: Wheelset) -> list[str]:
-    """Complaint about a wheelset that is too wide or too narrow for its track.
-
-    Parameters
-    ----------
-    key : callable
-        From a dimension to how the caller knows it.
-    wheelset : Wheelset
-    """
+    """Complaint about a wheelset that is too wide or too narrow for its track."""
     beside = wheelset.half - wheelset.gauge / 2 + wheelset.gauge_point()
     if abs(beside) <= _BESIDE:
         return []
@@ -149,13 +144,7 @@ def derailed(
 ) -> list[str]:
     """Complaints about wheels that touch their rail with the tip or the back of the flange.
 
-    Parameters
-    ----------
-    wheelset : Wheelset
-    sides : tuple of {"left", "right"}
-        Wheels that touch.
-    shift, yaw, roll : float
-        [m, rad, rad].
+    ``sides`` are the wheels that touch; shift [m], yaw [rad] and roll [rad].
     """
     wheel = wheelset.wheel
     s = np.linspace(*wheel.s_range, 2001)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
+from typing import Any
 
 from contactstudy.exceptions import ContactStudyError, InputError
 from contactstudy.geometry.wheelset import SIDES, Side
@@ -14,12 +15,14 @@ from contactstudy.study.kinds.passage.wheelset import complaint_of_position, der
 from contactstudy.study.kinds.positions.table import PositionsStudy
 from contactstudy.validation import raise_if
 
-Pressing = tuple[Side, int]
 
-
-def pressings(study: PositionsStudy) -> list[Pressing]:
-    """Side and number of the position of every press, in the order of the results."""
-    return [(side, k) for side in study.table.wheels for k in range(len(study.positions))]
+def names(study: PositionsStudy) -> dict[str, tuple[Side, int]]:
+    """Name of every press, with its side and the number of its position, in their order."""
+    return {
+        f"{side}_{k + 1:03d}": (side, k)
+        for side in study.table.wheels
+        for k in range(len(study.positions))
+    }
 
 
 def roll_of(study: PositionsStudy, k: int) -> float:
@@ -34,17 +37,29 @@ def roll_of(study: PositionsStudy, k: int) -> float:
     return study.wheelset.rest_roll(shift, yaw) if roll is None else roll
 
 
+def check(study: PositionsStudy, companions: Sequence[Any], reporter: Reporter) -> list[str]:
+    """Refuse impossible positions; the number of presses and the expected time."""
+    check_positions(study, reporter=reporter)
+    presses = len(names(study))
+    # a roll at rest is searched for once for both wheels
+    seconds = 0.5 * presses + (1.2 * len(study.positions) if study.table.roll == "rest" else 0.0)
+    return [f"{presses} presses, expected time about {max(seconds, 1):.0f} s"]
+
+
+def admit(study: PositionsStudy, asked: Sequence[str], reporter: Reporter) -> None:
+    """Find all impossible positions before any is pressed."""
+    at = names(study)
+    check_positions(study, [at[name] for name in asked], reporter)
+
+
 def check_positions(
-    study: PositionsStudy, of: Iterable[Pressing] | None = None, reporter: Reporter | None = None
+    study: PositionsStudy,
+    of: Iterable[tuple[Side, int]] | None = None,
+    reporter: Reporter | None = None,
 ) -> None:
     """Find wheelsets that do not fit, have derailed, or cannot be pressed with the load.
 
-    Parameters
-    ----------
-    study : PositionsStudy
-    of : iterable of (side, int), optional
-        Presses that are asked for; all without it.
-    reporter : Reporter, optional
+    `of` are the presses that are asked for; all without it.
 
     Raises
     ------
@@ -53,7 +68,7 @@ def check_positions(
     """
     reporter = reporter or Quiet()
     sides_at: dict[int, list[Side]] = {}
-    for side, k in pressings(study) if of is None else of:
+    for side, k in names(study).values() if of is None else of:
         sides_at.setdefault(k, []).append(side)
     found: dict[str, list[str]] = {}
     reporter.begin("checks", len(sides_at))

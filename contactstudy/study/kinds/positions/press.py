@@ -8,7 +8,8 @@ from contactstudy.exceptions import InputError, NumericalError
 from contactstudy.executor import Progress
 from contactstudy.geometry.wheelset import Side
 from contactstudy.halfspace.patches import press_wheel
-from contactstudy.study.kinds.positions.check import pressings, roll_of
+from contactstudy.study.kind import Inputs, Work
+from contactstudy.study.kinds.positions.check import names, roll_of
 from contactstudy.study.kinds.positions.table import PositionsStudy
 
 # name -> unit, meaning
@@ -31,12 +32,17 @@ VARIABLES = {
 }
 
 
-def names(study: PositionsStudy) -> dict[str, tuple[Side, int]]:
-    """Name of every press, with its side and the number of its position, in their order."""
-    return {f"{side}_{k + 1:03d}": (side, k) for side, k in pressings(study)}
+def work(study: PositionsStudy, inputs: Inputs) -> list[Work]:
+    """A piece a press."""
+    table = inputs.config["positions"]
+    shared = {k: v for k, v in table.items() if k not in ("wheels", "lateral", "yaw", "roll")}
+    return [
+        Work(name, [side, study.positions[k], shared], _place(study, side, k), "positions")
+        for name, (side, k) in names(study).items()
+    ]
 
 
-def place(study: PositionsStudy, side: Side, k: int) -> str:
+def _place(study: PositionsStudy, side: Side, k: int) -> str:
     """What messages call the press at position k."""
     shift, yaw, _ = study.positions[k]
     return f"{side} wheel at {1e3 * shift:g} mm and {1e3 * yaw:g} mrad"
@@ -47,13 +53,7 @@ def press_one(
 ) -> list[dict[str, Any]]:
     """Press one wheel at one position.
 
-    Parameters
-    ----------
-    study : PositionsStudy
-    name : str
-        One of `names`.
-    progress : callable, optional
-        Not called: a press has no steps.
+    Its name is one of `names`; progress is not called: a press has no steps.
 
     Returns
     -------
@@ -68,7 +68,7 @@ def press_one(
     side, k = names(study)[name]
     shift, yaw, _ = study.positions[k]
     table, wheelset, turned = study.table, study.wheelset, roll_of(study, k)
-    where = place(study, side, k)
+    where = _place(study, side, k)
     try:
         placed = wheelset.geometry(side, shift, yaw, turned)
         press = press_wheel(placed, table.load, study.modulus, side=table.cell)

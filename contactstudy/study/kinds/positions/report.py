@@ -38,7 +38,7 @@ def drawings(results: StudyResults) -> list[Drawing]:
     ]
 
 
-def report(results: StudyResults) -> Report:
+def report(results: StudyResults, timings: bool = False) -> Report:
     """How positions are computed, a table a wheel, and the figures."""
     parts: list[Part] = [
         {"title": f"{side.capitalize()} wheel", "blocks": [_patches(results, side)]}

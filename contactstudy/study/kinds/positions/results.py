@@ -44,7 +44,9 @@ def _dataset(rows: list[dict[str, Any]]) -> xr.Dataset:
     return data
 
 
-def metrics(runs: Mapping[str, xr.Dataset], costs: Mapping[str, Cost]) -> dict[str, Any]:
+def metrics(
+    study: PositionsStudy, runs: Mapping[str, xr.Dataset], costs: Mapping[str, Cost]
+) -> dict[str, Any]:
     """Content of ``metrics.json``.
 
     ::
@@ -68,7 +70,7 @@ def metrics(runs: Mapping[str, xr.Dataset], costs: Mapping[str, Cost]) -> dict[s
     return {"runs": made, "reference": None, "comparisons": {}}
 
 
-def write_csv(results: StudyResults, out_dir: Path) -> Path:
+def write_csv(results: StudyResults, out_dir: Path) -> list[Path]:
     """Write all patches, their names with units in the first line."""
     target = out_dir / CSV_FILE
     names = ("wheel", "position", "patch", *VARIABLES)
@@ -78,4 +80,4 @@ def write_csv(results: StudyResults, out_dir: Path) -> Path:
         writer.writerow([f"{n} [{units[n]}]" if n in units else n for n in names])
         for run in results.runs.values():
             writer.writerows(zip(*(run[name].values.tolist() for name in names), strict=True))
-    return target
+    return [target]

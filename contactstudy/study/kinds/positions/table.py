@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -13,10 +12,13 @@ from typing import Annotated, Any, ClassVar, Literal
 from contactstudy.exceptions import InputError
 from contactstudy.geometry.wheelset import SIDES, Side, Wheelset, WheelsetDimensions
 from contactstudy.halfspace.hertz import contact_modulus
-from contactstudy.profiles.curve import ProfileCurve
-from contactstudy.profiles.named import rail_curve, wheel_curve
 from contactstudy.profiles.wheel_file import named_file_digest
-from contactstudy.study.kinds.passage.wheelset import PATHS, WheelsetPosition, off_track
+from contactstudy.study.kinds.passage.wheelset import (
+    PATHS,
+    WheelsetPosition,
+    off_track,
+    smooth_profiles,
+)
 from contactstudy.study.loading import title_and_description
 from contactstudy.study.overrides import Overrides, override
 from contactstudy.track.rail import Rail
@@ -101,51 +103,32 @@ class Positions(WheelsetDimensions):
         ]
         if not self.wheels or len(set(self.wheels)) < len(self.wheels):
             problems.append(f'{key("wheels")}: must name "left", "right" or both, once each')
-        return problems + self._wheelset(key)[1]
+        try:
+            self._wheelset(key)
+        except InputError as error:
+            problems += error.problems
+        return problems
 
     @property
     def wheelset(self) -> Wheelset:
         """The wheelset on its track, with its profiles."""
-        made, problems = self._wheelset(lambda name: name)
-        if made is None:
-            raise InputError(problems)
-        return made
+        return self._wheelset(lambda name: name)
 
-    def _wheelset(self, key: Naming) -> tuple[Wheelset | None, list[str]]:
-        problems: list[str] = []
-
-        def curve(name: str, make: Callable[[str], ProfileCurve]) -> ProfileCurve | None:
-            try:
-                return make(getattr(self, name))
-            except InputError as error:
-                problems.extend(f"{key(name)}: {problem}" for problem in error.problems)
-                return None
-
-        wheel, rail = curve("wheel_profile", wheel_curve), curve("rail_profile", rail_curve)
-        if wheel is None or rail is None:
-            return None, problems
+    def _wheelset(self, key: Naming) -> Wheelset:
+        profiles = {name: getattr(self, name) for name in PATHS}
+        wheel, rail = smooth_profiles(key, **profiles)
         made = Wheelset.of(self, wheel, rail, self.wheel_radius)
         try:
-            return made, off_track(key, made)
+            beside = off_track(key, made)
         except InputError as error:
-            return None, [f"{key('gauge_depth')}: {problem}" for problem in error.problems]
-
-    def units(self) -> dict[str, str]:
-        """Key -> SI unit."""
-        return units(Positions, self.resolved())
+            beside = [f"{key('gauge_depth')}: {problem}" for problem in error.problems]
+        raise_if(beside)
+        return made
 
 
 @dataclass(frozen=True)
 class PositionsStudy:
-    """A study of positions that has been read and found possible.
-
-    Attributes
-    ----------
-    name, title, description : str
-    table : Positions
-    companions, reference
-        Those of other kinds; a study of positions has none.
-    """
+    """A study of positions that has been read and found possible."""
 
     kind: ClassVar[str] = "positions"
 
@@ -183,7 +166,8 @@ class PositionsStudy:
 
     def units(self) -> dict[str, str]:
         """Dotted key of `config` -> SI unit."""
-        return {f"positions.{key}": unit for key, unit in self.table.units().items()}
+        found = units(Positions, self.table.resolved())
+        return {f"positions.{key}": unit for key, unit in found.items()}
 
     def files(self) -> dict[str, str]:
         """Name of each profile's file -> SHA-256 of its content."""
@@ -191,17 +175,10 @@ class PositionsStudy:
         return {Path(n).name: found for n in names if (found := named_file_digest(n))}
 
 
-def load_positions(path: Path, data: dict[str, Any], overrides: Overrides = ()) -> PositionsStudy:
-    """Check the content of a study file that has a table ``[positions]``.
-
-    Parameters
-    ----------
-    path : Path
-        Of the file; paths inside are relative to it.
-    data : dict
-        Content as TOML gives it; overridden in place.
-    overrides : iterable of str
-        ``positions.key=value``.
+def load_positions(
+    path: Path, data: dict[str, Any], overrides: Overrides = (), main: Any = None
+) -> PositionsStudy:
+    """Check the content of a study file that has a table ``[positions]``; overridden in place.
 
     Raises
     ------

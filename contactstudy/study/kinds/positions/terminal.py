@@ -5,7 +5,6 @@ from __future__ import annotations
 from rich.box import SIMPLE
 from rich.table import Table
 
-from contactstudy.study.kinds.positions.table import PositionsStudy
 from contactstudy.study.results import StudyResults
 
 #: Variable -> heading, scale and decimals of what is shown.
@@ -43,11 +42,3 @@ def summary(results: StudyResults) -> list[Table]:
             )
         tables.append(table)
     return tables
-
-
-def needs(study: PositionsStudy) -> list[str]:
-    """The number of presses and the expected time."""
-    presses = len(study.positions) * len(study.table.wheels)
-    # a roll at rest is searched for once for both wheels
-    seconds = 0.5 * presses + (1.2 * len(study.positions) if study.table.roll == "rest" else 0.0)
-    return [f"{presses} presses, expected time about {max(seconds, 1):.0f} s"]

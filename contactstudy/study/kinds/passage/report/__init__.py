@@ -32,16 +32,8 @@ _PARTS = (
 )
 
 
-def report(results: StudyResults, timings: bool) -> Report:
-    """The paper's comparison, with its model and what of the paper was not available.
-
-    Parameters
-    ----------
-    results : StudyResults
-        A finished study.
-    timings : bool
-        Whether the run table shows seconds and memory.
-    """
+def report(results: StudyResults, timings: bool = False) -> Report:
+    """The paper's comparison, with its model and what of the paper was not available."""
     parts = _parts(results)
     return Report(
         abstract=abstract(results),
