@@ -8,6 +8,8 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
+Style = Literal["line", "points", "both", "reference"]
+
 
 @dataclass(frozen=True)
 class Curve:
@@ -15,7 +17,6 @@ class Curve:
 
     Attributes
     ----------
-    label : str
     x, y : tuple of float
         Equally long; nan leaves a gap.
     style : {"line", "points", "both", "reference"}
@@ -25,7 +26,7 @@ class Curve:
     label: str
     x: tuple[float, ...]
     y: tuple[float, ...]
-    style: Literal["line", "points", "both", "reference"] = "line"
+    style: Style = "line"
 
     def __post_init__(self) -> None:
         if len(self.x) != len(self.y):
@@ -42,8 +43,6 @@ class Plot:
         What is drawn, and in numbers what is seen.
     x_label, y_label : str
         With units.
-    curves : tuple of Curve
-    x_scale, y_scale : {"linear", "log"}
     """
 
     caption: str
@@ -54,12 +53,7 @@ class Plot:
     y_scale: Literal["linear", "log"] = "linear"
 
 
-def curve(
-    label: str,
-    x: npt.ArrayLike,
-    y: npt.ArrayLike,
-    style: Literal["line", "points", "both", "reference"] = "line",
-) -> Curve:
+def curve(label: str, x: npt.ArrayLike, y: npt.ArrayLike, style: Style = "line") -> Curve:
     """`Curve` from arrays (n,)."""
     return Curve(label, _floats(x), _floats(y), style)
 

@@ -18,7 +18,6 @@ class Case:
 
     Attributes
     ----------
-    name : str
     function : str
         "module:function"; takes nothing, returns a `CaseResult` of the same name. Imported when
         called, so that listing the cases is quick.

@@ -10,6 +10,9 @@ from typing import Literal
 from contactstudy.plot.curves import Plot
 
 Cell = str | int | float | None
+_PER_SI = {
+    "mm": 1e3, "um": 1e6, "µm": 1e6, "mm^2": 1e6, "mm²": 1e6, "kN": 1e-3, "MPa": 1e-6
+}  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -104,9 +107,6 @@ class CaseResult:
     title : str
     method : str
         What is compared with what, and how; paragraphs are parted by an empty line.
-    checks : tuple of Check
-    tables : tuple of ResultTable
-    figures : tuple of Plot
     """
 
     name: str
@@ -120,6 +120,26 @@ class CaseResult:
     def failed(self) -> tuple[Check, ...]:
         """Checks that leave their band."""
         return tuple(check for check in self.checks if check.passed is False)
+
+
+def check_shown(
+    quantity: str,
+    computed: float,
+    reference: float,
+    unit: str,
+    source: str,
+    band: float | None,
+    scale: float | None = None,
+) -> Check:
+    """Check of SI values, which it shows in the handy `unit`."""
+    factor = _PER_SI[unit]
+    scale = None if scale is None else factor * scale
+    return Check(quantity, factor * computed, factor * reference, unit, source, band, scale=scale)
+
+
+def check_at_most(quantity: str, computed: float, limit: float, unit: str, source: str) -> Check:
+    """Check against a limit that must not be exceeded at all."""
+    return Check(quantity, computed, limit, unit, source, 0.0, "at_most")
 
 
 def check_lines(checks: Sequence[Check]) -> str:

@@ -32,20 +32,14 @@ def run_cases(
 ) -> list[CaseOutcome]:
     """Run cases; those that are kept in `out_dir` from the same program are taken from there.
 
+    A case that breaks down does not keep the others from running.
+
     Parameters
     ----------
-    cases : sequence of Case
-    out_dir : Path
     quick : bool
         Slow cases are not run.
-    reporter : Reporter, optional
     jobs : int
         Cases at once, each in a process of its own; with 1 all run in this process.
-
-    Returns
-    -------
-    list of CaseOutcome
-        One a case. A case that breaks down does not keep the others from running.
 
     Raises
     ------
@@ -69,14 +63,9 @@ def run_cases(
         reporter.end(name, outcome.good)
         reporter.note(outcome_line(outcome))
 
-    tasks = [Task(case.name, _task, (case, out_dir), here=jobs == 1) for case in todo]
+    tasks = [Task(case.name, _run, (case, out_dir), here=jobs == 1) for case in todo]
     run_tasks(tasks, jobs, reporter, finished)
     return [outcomes[case.name] for case in cases]
-
-
-def _task(case: Case, out_dir: Path, progress: Progress) -> CaseOutcome:
-    progress(0, 1)
-    return _run(case, out_dir)
 
 
 def _of_task(name: str, ended: Outcome) -> CaseOutcome:
@@ -147,7 +136,8 @@ def _kept(case: Case, out_dir: Path) -> CaseOutcome | None:
     return None if data is None else judged(from_data(data))
 
 
-def _run(case: Case, out_dir: Path) -> CaseOutcome:
+def _run(case: Case, out_dir: Path, progress: Progress) -> CaseOutcome:
+    progress(0, 1)
     try:
         result = case.load()()
         if result.name != case.name:

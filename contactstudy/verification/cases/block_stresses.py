@@ -12,7 +12,6 @@ from scipy.optimize import minimize_scalar
 from contactstudy.arrays import Array
 from contactstudy.compare.convergence import fitted_order
 from contactstudy.contact.complementarity import press
-from contactstudy.geometry.interpolation import Rows, grid_rows
 from contactstudy.geometry.quadrature import point_line
 from contactstudy.halfspace.hertz import contact_modulus, hertz_contact
 from contactstudy.halfspace.pressure_field import recovered_pressure
@@ -21,6 +20,7 @@ from contactstudy.solids.stress import maximum_shear, von_mises
 from contactstudy.verification.cases.graded import graded_lines
 from contactstudy.verification.cases.halfspace_block import HalfSpaceBlock
 from contactstudy.verification.cases.line_contact import line_contact
+from contactstudy.verification.cases.pressed_blocks import block_points
 from contactstudy.verification.cases.strip import Strip
 
 MODULUS = contact_modulus()
@@ -68,47 +68,34 @@ def peak(depth: Array, value: Array) -> tuple[float, float]:
 def sphere_stresses(elements: tuple[float, ...] = SPHERE_ELEMENTS) -> tuple[LargestStresses, ...]:
     """Press two equal blocks over a sphere's gap; one mesh, patches of growing size.
 
-    Parameters
-    ----------
-    elements : tuple of float
-        Elements over the radius of the patch.
+    `elements` are those over the radius of the patch.
     """
     widest = max(elements)
     n = int(np.ceil(1.15 * widest)) + 1
     x = graded_lines((n - 1) * SIZE, SIZE, 6 * widest * SIZE, growth=1.5)
     z = graded_lines(0.75 * widest * SIZE, SIZE, 6 * widest * SIZE, growth=1.5)
     block, loaded = HalfSpaceBlock(x, x, z), (slice(0, n), slice(0, n))
-    line = point_line(x[:n], "gauss")
-    rows = grid_rows(line.rows, line.rows, n)
-    tread, area = rows.matrix(n * n), 4 * np.outer(line.weight, line.weight).ravel()
-    gap = np.add.outer(line.at**2, line.at**2).ravel() / (2 * RADIUS)
-    M = 2 * tread @ block.patch(loaded).flexibility @ tread.T + np.diag(1 / (PENALTY * area))
+    points = block_points(x[:n], x[:n], (RADIUS, RADIUS), "gauss")
+    tread = points.wheel_rows.matrix(n * n)
+    M = 2 * tread @ block.patch(loaded).flexibility @ tread.T + np.diag(1 / (PENALTY * points.area))
     found = []
     for count in elements:
         a = count * SIZE
         # a^3 = 3 F R/(4 E*)
         hertz = hertz_contact(4 * MODULUS * a**3 / (3 * RADIUS), MODULUS, RADIUS, RADIUS)
-        forces = press(M, gap, np.ones(len(gap)), hertz.load).forces
+        forces = press(M, points.gap, points.normal_z, hertz.load).forces
         u = block.displacement(loaded, (tread.T @ forces)[:, None])[..., 0]
         axis, p0 = block.stress(u)[0, 0], hertz.peak_pressure
         shear, depth = peak(z, maximum_shear(axis))
-        pressure = _nodal(rows, forces, area).reshape(n, n)
+        pressure = points.nodal_pressure(forces).reshape(n, n)
         index = np.abs(np.arange(1 - n, n))
         whole = np.concatenate([-x[n - 1 : 0 : -1], x[:n]])
         mises_field, shear_field = stress_maxima(
             recovered_pressure(whole, whole, pressure[index[:, None], index])
         )
-        found.append(
-            LargestStresses(
-                count,
-                shear / p0,
-                depth / a,
-                peak(z, von_mises(axis))[0] / p0,
-                shear_field.value / p0,
-                shear_field.depth / a,
-                mises_field.value / p0,
-            )
-        )
+        nodal = (shear / p0, depth / a, peak(z, von_mises(axis))[0] / p0)
+        field = (shear_field.value / p0, shear_field.depth / a, mises_field.value / p0)
+        found.append(LargestStresses(count, *nodal, *field))
     return tuple(found)
 
 
@@ -116,10 +103,7 @@ def sphere_stresses(elements: tuple[float, ...] = SPHERE_ELEMENTS) -> tuple[Larg
 def line_stresses(elements: tuple[float, ...] = LINE_ELEMENTS) -> tuple[LargestStresses, ...]:
     """Press two equal strips in plane strain over a cylinder's gap.
 
-    Parameters
-    ----------
-    elements : tuple of float
-        Elements over the half width of the contact.
+    `elements` are those over the half width of the contact.
     """
     found, half_width = [], 6e-3
     # b = 2 sqrt(P R/(pi E*))
@@ -144,14 +128,6 @@ def line_stresses(elements: tuple[float, ...] = LINE_ELEMENTS) -> tuple[LargestS
         p0 = hertz.peak_pressure
         found.append(LargestStresses(count, shear / p0, depth / half_width, mises / p0))
     return tuple(found)
-
-
-def _nodal(rows: Rows, forces: Array, area: Array) -> Array:
-    """Lumped projection of pressures to nodes, as `ContactPoints.nodal_pressure` has it."""
-    n = int(rows.index.max()) + 1
-    load = np.bincount(rows.index.ravel(), (rows.weight * forces[:, None]).ravel(), n)
-    weight = np.bincount(rows.index.ravel(), (rows.weight * area[:, None]).ravel(), n)
-    return np.asarray(load / weight)
 
 
 def shear_order(rows: tuple[LargestStresses, ...], reference: float) -> float:

@@ -14,7 +14,14 @@ from contactstudy.solvers.at_rest import geometry_press
 from contactstudy.track.meshed import MeshedTrack
 from contactstudy.verification.cases.calculix_results import CalculixPress
 from contactstudy.verification.cases.flat_press import FacetPress
-from contactstudy.verification.check import Check, ResultTable
+from contactstudy.verification.check import (
+    Check,
+    ResultTable,
+    check_at_most,
+    check_shown,
+)
+
+PEAK = "peak mean pressure of a face"
 
 
 def smooth_press(
@@ -25,10 +32,7 @@ def smooth_press(
     x: float,
     geometry: Geometry | None = None,
 ) -> FacetPress:
-    """The program's own press between smooth profiles, by the faces of the tread.
-
-    Parameters are those of `contactstudy.verification.cases.flat_press.flat_press`.
-    """
+    """The program's own press between smooth profiles; arguments as of `flat_press`."""
     geometry = geometry or Geometry.of(wheel.recipe)
     contact = SurfaceContact(wheel, geometry, penalty=penalty)
     points, curve = contact.points, geometry_press(track, contact, np.array([load]), x)
@@ -56,33 +60,17 @@ def press_checks(
     """Approach, area and peak pressure of two presses, with their bands."""
     peak, reference = float(ours.face_pressure.max()), float(theirs.face_pressure.max())
     return (
-        Check(
-            f"approach, {how}", 1e6 * ours.approach, 1e6 * theirs.approach, "um", source, bands[0]
-        ),
-        Check(f"contact area, {how}", 1e6 * ours.area, 1e6 * theirs.area, "mm^2", source, bands[1]),
-        Check(
-            f"peak mean pressure of a face, {how}",
-            1e-6 * peak,
-            1e-6 * reference,
-            "MPa",
-            source,
-            bands[2],
-        ),
+        check_shown(f"approach, {how}", ours.approach, theirs.approach, "um", source, bands[0]),
+        check_shown(f"contact area, {how}", ours.area, theirs.area, "mm^2", source, bands[1]),
+        check_shown(f"{PEAK}, {how}", peak, reference, "MPa", source, bands[2]),
     )
 
 
 def pressures_apart(ours: FacetPress, theirs: FacetPress, source: str) -> Check:
     """Root mean square of the difference of the faces' pressures, relative to theirs."""
     apart = np.linalg.norm(ours.face_pressure - theirs.face_pressure)
-    return Check(
-        "difference of the pressures, flat faces",
-        float(apart / np.linalg.norm(theirs.face_pressure)),
-        0.03,
-        "",
-        source,
-        0.0,
-        sense="at_most",
-    )
+    share = float(apart / np.linalg.norm(theirs.face_pressure))
+    return check_at_most("difference of the pressures, flat faces", share, 0.03, "", source)
 
 
 def read_as_facets(mesh: PressMesh, press: CalculixPress) -> FacetPress:
@@ -100,17 +88,7 @@ def read_as_facets(mesh: PressMesh, press: CalculixPress) -> FacetPress:
 def pressure_table(
     caption: str, place: str, at: Array, presses: Mapping[str, Array]
 ) -> ResultTable:
-    """Mean pressures of a row of faces.
-
-    Parameters
-    ----------
-    caption, place : str
-        Of the table and of the column of places.
-    at : ndarray (k,)
-        Places of the faces in m.
-    presses : mapping of str to ndarray (k,)
-        Pressures in Pa.
-    """
+    """Mean pressures (k,) in Pa of faces `at` (k,) in m, whose column is called `place`."""
     rows = tuple(
         (1e3 * float(x), *(1e-6 * float(pressure[i]) for pressure in presses.values()))
         for i, x in enumerate(at)

@@ -62,7 +62,6 @@ def read_presses(path: Path, penalty: float, symmetric: bool = True) -> tuple[Ca
 
     Parameters
     ----------
-    path : Path
     penalty : float
         Of the model in Pa/m: gives the areas from the contact energies.
     symmetric : bool

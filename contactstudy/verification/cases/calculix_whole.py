@@ -24,7 +24,7 @@ from contactstudy.verification.cases.calculix_faces import (
 )
 from contactstudy.verification.cases.flat_press import FacetPress, flat_press
 from contactstudy.verification.cases.run_calculix import run_calculix
-from contactstudy.verification.check import CaseResult, Check, ResultTable
+from contactstudy.verification.check import CaseResult, Check, ResultTable, check_shown
 
 STUDY = "s1002_inclined"
 SIZE, LENGTH = 4e-3, 0.1
@@ -61,14 +61,10 @@ class WholePress:
     ----------
     steps : tuple of FacetPress
         Of CalculiX's load steps.
-    flat, smooth : FacetPress
-        Of the program between flat faces, and between smooth profiles.
-    wheel : WheelFlexibility
     load, force : float
         Of the wheel, and what CalculiX has between the surfaces, vertical, in N.
     nodes : int
         Of CalculiX's mesh.
-    source : str
     """
 
     steps: tuple[FacetPress, ...]
@@ -98,14 +94,13 @@ class WholePress:
 
     def vertical(self) -> Check:
         """Whether the load is reached."""
-        return Check(
-            "vertical contact force", 1e-3 * self.load, 1e-3 * self.force, "kN", self.source, 1e-3
-        )
+        force = "vertical contact force"
+        return check_shown(force, self.load, self.force, "kN", self.source, 1e-3)
 
     def lateral(self, how: str, ours: FacetPress, band: float | None = None) -> Check:
         """Lateral force on the wheel."""
-        forces = 1e-3 * ours.lateral_force, 1e-3 * self.theirs.lateral_force
-        return Check(f"lateral force on the wheel, {how}", *forces, "kN", self.source, band)
+        forces = ours.lateral_force, self.theirs.lateral_force
+        return check_shown(f"lateral force on the wheel, {how}", *forces, "kN", self.source, band)
 
     def table(self) -> ResultTable:
         """Pressures across the tread, just ahead of the middle."""
@@ -120,14 +115,9 @@ class WholePress:
 
 
 def whole_press(*changes: str, start: float = START, repeats: int = 0) -> WholePress:
-    """Press the study's wheel in both programs.
+    """Press the study's wheel, with keys as ``key=value``, by both programs.
 
-    Parameters
-    ----------
-    changes : str
-        Keys of the study, ``key=value``.
-    start, repeats
-        As of `PressLoading`.
+    `start` and `repeats` are those of `PressLoading`.
     """
     study = load_study(STUDY, (*CHANGES, *changes))
     cell, placed = build.recipe(study), geometry(study)

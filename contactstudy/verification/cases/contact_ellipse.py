@@ -36,12 +36,7 @@ class ContactEllipse:
 def contact_ellipse(points: ContactPoints, forces: Array) -> ContactEllipse:
     """Ellipse with the resultant and second moments of a pressure field.
 
-    Parameters
-    ----------
-    points : ContactPoints
-        The n contact points.
-    forces : ndarray (n,)
-        Normal forces in N, not all zero.
+    `forces` are the normal ones (n,) at the points in N, not all zero.
     """
     x, y = points.x_of_points, points.y_of_points
     total = float(forces.sum())

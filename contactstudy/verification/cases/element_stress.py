@@ -23,12 +23,8 @@ def hex_stress(
 
     Parameters
     ----------
-    coordinates : ndarray (m, 8, 3)
-        Corners in m.
-    displacement : ndarray (m, 8, 3)
+    coordinates, displacement : ndarray (m, 8, 3)
         Of the corners in m.
-    youngs_modulus, poisson_ratio : float
-        Elastic constants, E in Pa.
     incompatible : bool
         Whether the elements have bubble modes; as in `hex_stiffness`.
 
@@ -54,6 +50,19 @@ def hex_stress(
     return np.asarray(strain @ D)
 
 
+def stress_at_nodes(
+    corners: Array,
+    displacement: Array,
+    elements: IntArray,
+    youngs_modulus: float,
+    poisson_ratio: float,
+) -> Array:
+    """`nodal_stress` (n_nodes, 6) of elements (m, 8) whose corners (m, 8, 3) move so, in m."""
+    gauss = hex_stress(corners, displacement, youngs_modulus, poisson_ratio)
+    volume = strain_operators(corners)[2].sum(axis=1)
+    return nodal_stress(gauss, elements, volume, int(elements.max()) + 1)
+
+
 def nodal_stress(gauss: Array, quads: IntArray, volume: Array, n_nodes: int) -> Array:
     """Stresses at nodes: extrapolated from the Gauss points, averaged over the elements there.
 
@@ -65,7 +74,6 @@ def nodal_stress(gauss: Array, quads: IntArray, volume: Array, n_nodes: int) -> 
         Corner nodes of the elements.
     volume : ndarray (m,)
         Weight of an element in the average, its volume in m^3.
-    n_nodes : int
 
     Returns
     -------

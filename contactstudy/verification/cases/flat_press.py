@@ -57,13 +57,8 @@ def flat_press(
     ----------
     track : MeshedTrack
         With clamped ends and without supports: the approach is measured from the ends.
-    wheel : WheelFlexibility
-    load : float
-        In N.
-    penalty : float
-        In Pa/m.
-    x : float
-        Position of the wheel on the track in m.
+    load, penalty, x : float
+        In N and Pa/m, and the position of the wheel on the track in m.
     geometry : Geometry, optional
         The recipe's profiles, centred and upright, when not given.
     """

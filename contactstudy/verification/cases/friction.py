@@ -18,7 +18,7 @@ def vertical_friction(
     friction: float,
     shear_modulus: float,
 ) -> float:
-    """Upward friction force on the wheel in steady rolling, without spin.
+    """Upward friction force [N] on the wheel in steady rolling, without spin.
 
     The force opposes the rigid slip ``w`` of the wheel's surface over the rail; its size follows
     P. J. Vermeulen and K. L. Johnson (1964): with ``t = G a b C |w|/V / (3 mu N)`` it is
@@ -27,21 +27,12 @@ def vertical_friction(
 
     Parameters
     ----------
-    patch : Patch
-    wheel : PlacedWheel
     speed : float
         V, of the axle along the track [m/s].
     pitch_rate : float
         Of the wheel about its axle, positive rolling forwards [rad/s].
-    friction : float
-        mu.
-    shear_modulus : float
-        G [Pa].
-
-    Returns
-    -------
-    float
-        [N].
+    friction, shear_modulus : float
+        mu, and G [Pa].
     """
     s = np.array([patch.wheel_s])
     local = wheel.radius - float(wheel.curve.point(s)[0, 1])

@@ -12,8 +12,9 @@ import numpy as np
 from contactstudy.arrays import Array, IntArray
 from contactstudy.exceptions import InputError
 from contactstudy.solids.chain import BlockTridiagonal
+from contactstudy.solids.hexahedron import hex_stiffness
+from contactstudy.verification.cases.element_stress import stress_at_nodes
 from contactstudy.verification.cases.point_loads import boussinesq
-from contactstudy.verification.cases.slabs import slab_stiffness, slab_stress
 
 
 @dataclass(frozen=True)
@@ -27,20 +28,46 @@ class HalfSpacePatch:
     flexibility : ndarray (nx*ny, nx*ny)
         Inward displacement in m for unit inward force in N. With a symmetry plane a nodal
         force is the total over the node and its images.
-    symmetric : tuple of bool
-        Whether x = 0 and y = 0 are symmetry planes.
     """
 
     x: Array
     y: Array
     flexibility: Array
-    symmetric: tuple[bool, bool]
 
 
 def _images(point: tuple[float, float], symmetric: tuple[bool, bool]) -> list[tuple[float, float]]:
     xs = (point[0], -point[0]) if symmetric[0] else (point[0],)
     ys = (point[1], -point[1]) if symmetric[1] else (point[1],)
     return [(x, y) for x in xs for y in ys]
+
+
+def _elements(ny: int, nz: int) -> IntArray:
+    """Corner nodes (m, 8) of the elements between planes 0 and 1, node ``iy*nz + iz`` of each.
+
+    Reference axes (xi, eta, zeta) lie along (y, depth, x), a right-handed triple.
+    """
+    plane = np.arange(ny * nz).reshape(ny, nz)
+    quads = np.stack(
+        [plane[:-1, :-1], plane[1:, :-1], plane[1:, 1:], plane[:-1, 1:]], axis=-1
+    ).reshape(-1, 4)
+    return np.concatenate([quads, quads + ny * nz], axis=1)
+
+
+def _slab_stiffness(nodes: Array, youngs_modulus: float, poisson_ratio: float) -> list[Array]:
+    """Stiffness of every slab on its two planes [N/m]; equally thick ones share one array."""
+    ny, nz = nodes.shape[1:3]
+    elements, n = _elements(ny, nz), 3 * ny * nz
+    dofs = (3 * elements[:, :, None] + np.arange(3)).reshape(-1, 24)
+    made: dict[float, Array] = {}
+    slabs = []
+    for k, thickness in enumerate(np.diff(nodes[:, 0, 0, 0]).round(12).tolist()):
+        if thickness not in made:
+            corners = nodes[k : k + 2].reshape(-1, 3)[elements]
+            K = hex_stiffness(corners, youngs_modulus, poisson_ratio)
+            made[thickness] = np.zeros((2 * n, 2 * n))
+            np.add.at(made[thickness], (dofs[:, :, None], dofs[:, None, :]), K)
+        slabs.append(made[thickness])
+    return slabs
 
 
 class HalfSpaceBlock:
@@ -51,8 +78,8 @@ class HalfSpaceBlock:
     x_lines, y_lines, depth_lines : ndarray
         Mesh lines in m; ``depth_lines[0] = 0`` is the surface. A symmetry plane lies at the
         first line, which must then be 0.
-    youngs_modulus, poisson_ratio : float
-        Elastic constants, E in Pa.
+    youngs_modulus : float
+        In Pa.
     symmetric : tuple of bool
         Symmetry about x = 0 and y = 0.
 
@@ -86,7 +113,7 @@ class HalfSpaceBlock:
         self._constants = (youngs_modulus, poisson_ratio)
         self.nodes = np.stack(np.meshgrid(x, y, z, indexing="ij"), axis=-1)
         nx, ny, nz = self.nodes.shape[:3]
-        self._slabs = slab_stiffness(self.nodes, youngs_modulus, poisson_ratio)
+        self._slabs = _slab_stiffness(self.nodes, youngs_modulus, poisson_ratio)
         # what is fixed: the outer faces wholly, the symmetry planes in their normal
         fixed = np.zeros((nx, ny, nz, 3), dtype=bool)
         fixed[-1], fixed[:, -1], fixed[:, :, -1] = True, True, True
@@ -162,29 +189,22 @@ class HalfSpaceBlock:
     def patch(self, loaded: tuple[slice, slice]) -> HalfSpacePatch:
         """Flexibility of a grid of surface nodes.
 
-        Returns
-        -------
-        HalfSpacePatch
-            Symmetrised; Betti's reciprocity holds up to the discretisation of the far field.
+        Symmetrised; Betti's reciprocity holds up to the discretisation of the far field.
         """
         ix, iy = self._loaded(loaded)
         count = len(ix) * len(iy)
         u = self.displacement(loaded, np.eye(count))
         F = u[ix][:, iy, 0, 2].reshape(count, count)
         x, y, _ = self._lines
-        return HalfSpacePatch(x[ix], y[iy], 0.5 * (F + F.T), self._symmetric)
+        return HalfSpacePatch(x[ix], y[iy], 0.5 * (F + F.T))
 
     def stress(self, displacement: Array) -> Array:
-        """Stresses at the nodes, averaged over the elements about each.
+        """Stresses (nx, ny, nz, 6) in Pa at the nodes for a displacement (nx, ny, nz, 3) in m.
 
-        Parameters
-        ----------
-        displacement : ndarray (nx, ny, nz, 3)
-            In m.
-
-        Returns
-        -------
-        ndarray (nx, ny, nz, 6)
-            (xx, yy, zz, yz, zx, xy) in Pa in the axes (x, y, depth).
+        Averaged over the elements about each node, in the axes (x, y, depth).
         """
-        return slab_stress(self.nodes, displacement, *self._constants)
+        nx, ny, nz = self.nodes.shape[:3]
+        elements = np.concatenate([_elements(ny, nz) + k * ny * nz for k in range(nx - 1)])
+        nodes, moved = self.nodes.reshape(-1, 3), displacement.reshape(-1, 3)
+        nodal = stress_at_nodes(nodes[elements], moved[elements], elements, *self._constants)
+        return nodal.reshape(nx, ny, nz, 6)

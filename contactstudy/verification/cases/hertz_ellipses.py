@@ -11,7 +11,7 @@ from contactstudy.compare.convergence import fitted_order
 from contactstudy.halfspace.hertz import HertzContact, contact_modulus, hertz_contact
 from contactstudy.plot.curves import Plot, curve
 from contactstudy.verification.cases.pressed_blocks import BlockPress, blocks
-from contactstudy.verification.check import CaseResult, Check, ResultTable
+from contactstudy.verification.check import CaseResult, Check, ResultTable, check_shown
 
 RATIOS = (1.0, 1.5, 2.0, 3.0, 4.0)
 LOADS = (20e3, 60e3, 200e3)
@@ -88,10 +88,17 @@ def _study(name: str, title: str, ratios: tuple[float, ...], meshes: tuple[int, 
                 if load in LOADS:
                     rows.append(_row(ratio, elements, exact, found))
     every = [e for found in errors.values() for e in found]
-    for quantity, order in _orders(every).items():
-        checks.append(
-            Check(f"observed order, {quantity}", order, 1.0, "", "least expected", 0.0, "at_least")
-        )
+    over = [e.elements for e in every]
+    checks += [
+        order_check("peak", over, [e.peak for e in every]),
+        order_check("semi-axes", over, [e.axes for e in every]),
+        order_check("approach", over, [e.approach for e in every]),
+    ]
+    peaks = {
+        f"peak, a/b = {ratio:g}": ([e.elements for e in found], [e.peak for e in found])
+        for ratio, found in errors.items()
+    }
+    of = "Difference of the peak pressure from Hertz's"
     n = meshes[-1]
     method = (
         f"{METHOD}\n\nThe finest mesh has {n} elements over each semi-axis at 200 kN, so "
@@ -104,7 +111,7 @@ def _study(name: str, title: str, ratios: tuple[float, ...], meshes: tuple[int, 
         method,
         tuple(checks),
         (ResultTable("All meshes: difference from Hertz in per cent.", _HEADER, tuple(rows)),),
-        (_plot(errors),),
+        (error_plot(of, "a semi-axis", peaks, (12.0, 4.0)),),
     )
 
 
@@ -116,77 +123,80 @@ def _pressed(ratio: float, elements: int, load: float) -> tuple[HertzContact, Bl
     return exact, bodies.press(load, PENALTY)
 
 
+def _pairs(exact: HertzContact, found: BlockPress) -> dict[str, tuple[float, float]]:
+    """Computed and exact values."""
+    return {
+        "semi-axis a": (found.ellipse.along, exact.semi_axis_x),
+        "semi-axis b": (found.ellipse.across, exact.semi_axis_y),
+        "peak": (found.ellipse.peak_pressure, exact.peak_pressure),
+        "peak, nodes": (found.nodal_pressure, exact.peak_pressure),
+        "approach": (found.approach, exact.approach),
+        "area": (found.area, exact.area),
+    }
+
+
 def _checks(
     ratio: float, exact: HertzContact, found: BlockPress, nodal_band: float | None
 ) -> list[Check]:
     where = f"a/b = {ratio:g}, {exact.load * 1e-3:g} kN"
-    values = (
-        ("semi-axis a", found.ellipse.along * 1e3, exact.semi_axis_x * 1e3, "mm", BAND),
-        ("semi-axis b", found.ellipse.across * 1e3, exact.semi_axis_y * 1e3, "mm", BAND),
-        ("peak", found.ellipse.peak_pressure * 1e-6, exact.peak_pressure * 1e-6, "MPa", BAND),
-        ("peak, nodes", found.nodal_pressure * 1e-6, exact.peak_pressure * 1e-6, "MPa", nodal_band),
-        ("approach", found.approach * 1e6, exact.approach * 1e6, "µm", APPROACH_BAND),
-        ("area", found.area * 1e6, exact.area * 1e6, "mm²", AREA_BAND),
-    )
+    units = ("mm", "mm", "MPa", "MPa", "µm", "mm²")
+    bands = (BAND, BAND, BAND, nodal_band, APPROACH_BAND, AREA_BAND)
     return [
-        Check(f"{where}: {quantity}", computed, reference, unit, HERTZ, band)
-        for quantity, computed, reference, unit, band in values
+        check_shown(f"{where}: {quantity}", *pair, unit, HERTZ, band)
+        for (quantity, pair), unit, band in zip(
+            _pairs(exact, found).items(), units, bands, strict=True
+        )
     ]
 
 
 def _compared(exact: HertzContact, found: BlockPress, elements: int, ratio: float) -> _Errors:
     # patches grow with the cube root of the load
     over = elements * (exact.load / max(LOADS)) ** (1 / 3)
-    a = abs(found.ellipse.along / exact.semi_axis_x - 1)
-    b = abs(found.ellipse.across / exact.semi_axis_y - 1)
-    return _Errors(
-        over,
-        abs(found.ellipse.peak_pressure / exact.peak_pressure - 1),
-        max(a, b),
-        abs(found.approach / exact.approach - 1),
-    )
+    a, b, peak, _, approach, _ = (abs(c / e - 1) for c, e in _pairs(exact, found).values())
+    return _Errors(over, peak, max(a, b), approach)
 
 
 _HEADER = ("a/b", "elements at 200 kN", "load (kN)", "a", "b", "peak", "peak, nodes", "approach")
 
 
 def _row(ratio: float, elements: int, exact: HertzContact, found: BlockPress) -> tuple[float, ...]:
-    pairs = (
-        (found.ellipse.along, exact.semi_axis_x),
-        (found.ellipse.across, exact.semi_axis_y),
-        (found.ellipse.peak_pressure, exact.peak_pressure),
-        (found.nodal_pressure, exact.peak_pressure),
-        (found.approach, exact.approach),
-    )
+    *pairs, _ = _pairs(exact, found).values()
     percent = tuple(round(100 * (computed / reference - 1), 2) for computed, reference in pairs)
     return (ratio, elements, exact.load * 1e-3, *percent)
 
 
-def _orders(errors: list[_Errors]) -> dict[str, float]:
-    size = [1 / e.elements for e in errors]
-    return {
-        "peak": fitted_order(size, [e.peak for e in errors]),
-        "semi-axes": fitted_order(size, [e.axes for e in errors]),
-        "approach": fitted_order(size, [e.approach for e in errors]),
-    }
+def order_check(quantity: str, elements: list[float], errors: list[float]) -> Check:
+    """Observed order of errors (n,) over the elements (n,) that a semi-axis has."""
+    order = fitted_order([1 / n for n in elements], errors)
+    return Check(f"observed order, {quantity}", order, 1.0, "", "least expected", 0.0, "at_least")
 
 
-def _plot(errors: dict[float, list[_Errors]]) -> Plot:
+def error_plot(
+    of: str,
+    axis: str,
+    errors: dict[str, tuple[list[float], list[float]]],
+    reference: tuple[float, float],
+) -> Plot:
+    """Errors beside a line of second order.
+
+    Parameters
+    ----------
+    of, axis : str
+        What differs from Hertz, and what the elements are counted over.
+    errors : dict
+        Elements (n,) and relative errors (n,) by name.
+    reference : tuple of float
+        Most elements, and per cent at the fewest, of the line of second order.
+    """
     curves = [
-        curve(
-            f"peak, a/b = {ratio:g}",
-            [e.elements for e in found],
-            [100 * e.peak for e in found],
-            "points",
-        )
-        for ratio, found in errors.items()
+        curve(name, elements, [100 * e for e in found], "points")
+        for name, (elements, found) in errors.items()
     ]
-    x = np.array([min(e.elements for f in errors.values() for e in f), 12.0])
-    curves.append(curve("second order", x, 4.0 * (x / x[0]) ** -2, "reference"))
+    x = np.array([min(min(elements) for elements, _ in errors.values()), reference[0]])
+    curves.append(curve("second order", x, reference[1] * (x / x[0]) ** -2, "reference"))
     return Plot(
-        "Difference of the peak pressure from Hertz's against the elements over a semi-axis; each "
-        "point is one load on one mesh.",
-        "Elements over a semi-axis",
+        f"{of} against the elements over {axis}; each point is one load on one mesh.",
+        f"Elements over {axis}",
         "Difference (%)",
         tuple(curves),
         "log",
@@ -204,19 +214,12 @@ def ssnv104() -> CaseResult:
     found = bodies.crush(crush, PENALTY)
     modulus = contact_modulus(20e9, 0.3)
     load = 4 / 3 * modulus * float(np.sqrt(relative)) * crush**1.5
-    source = "code_aster, SSNV104"
+    source, peak = "code_aster, SSNV104", found.ellipse.peak_pressure
     checks = (
         Check("σ_zz at the centre", -found.nodal_pressure * 1e-6, -2798.3, "MPa", source, BAND),
-        Check(
-            "peak pressure (moments)",
-            found.ellipse.peak_pressure * 1e-6,
-            2798.3,
-            "MPa",
-            source,
-            BAND,
-        ),
+        Check("peak pressure (moments)", peak * 1e-6, 2798.3, "MPa", source, BAND),
         Check("contact radius", found.ellipse.along * 1e3, 10.0, "mm", source, BAND),
-        Check("force", found.load * 1e-3, load * 1e-3, "kN", HERTZ, APPROACH_BAND),
+        check_shown("force", found.load, load, "kN", HERTZ, APPROACH_BAND),
     )
     method = (
         "Two spheres of R = 50 mm, E = 20 GPa, ν = 0.3 are crushed by 4 mm. The published values "

@@ -6,17 +6,23 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from contactstudy.compare.convergence import fitted_order
 from contactstudy.contact.complementarity import press
 from contactstudy.geometry.interpolation import SplineLine
 from contactstudy.geometry.quadrature import point_line
 from contactstudy.halfspace.hertz import contact_modulus
-from contactstudy.plot.curves import Plot, curve
 from contactstudy.verification.cases.graded import graded_lines
-from contactstudy.verification.cases.hertz_ellipses import APPROACH_BAND, BAND, HERTZ, PENALTY
+from contactstudy.verification.cases.hertz_ellipses import (
+    APPROACH_BAND,
+    BAND,
+    HERTZ,
+    PENALTY,
+    error_plot,
+    order_check,
+)
 from contactstudy.verification.cases.line_contact import line_contact
+from contactstudy.verification.cases.pressed_blocks import GROWTH, MARGIN, OUTER, REACH
 from contactstudy.verification.cases.strip import Strip
-from contactstudy.verification.check import CaseResult, Check, ResultTable
+from contactstudy.verification.check import CaseResult, Check, ResultTable, check_shown
 
 RADIUS = 0.43
 LOADS = (2e6, 6e6, 20e6)
@@ -25,7 +31,6 @@ CURVE_LOADS = tuple(np.geomspace(2e6, 20e6, 9))
 MESHES = (3, 6, 12, 24)
 """Elements over the half width at the largest load."""
 YOUNG, POISSON = 210e9, 0.3
-_MARGIN, _REACH, _OUTER, _GROWTH = 2, 1.25, 5.0, 1.5
 
 METHOD = (
     "A cylinder of R = 0.43 m lies on a flat; both are half-planes of the program's hexahedra (one "
@@ -63,12 +68,16 @@ def line() -> CaseResult:
     finest = [one for one in found[MESHES[-1]] if one.load in LOADS]
     checks = [check for one in finest for check in _checks(one)]
     every = [one for mesh in found.values() for one in mesh]
-    sizes = [1 / one.elements for one in every]
-    for index, quantity in ((0, "half width"), (1, "peak")):
-        order = fitted_order(sizes, [abs(one.errors[index]) for one in every])
-        checks.append(
-            Check(f"observed order, {quantity}", order, 1.0, "", "least expected", 0.0, "at_least")
-        )
+    over = [one.elements for one in every]
+    width, peak, nodal, approach = ([abs(one.errors[k]) for one in every] for k in range(4))
+    checks += [order_check("half width", over, width), order_check("peak", over, peak)]
+    drawn = {"half width": width, "peak, nodes": nodal, "approach": approach}
+    plot = error_plot(
+        "Difference from Hertz",
+        "the half width",
+        {name: (over, errors) for name, errors in drawn.items()},
+        (max(over), 10.0),
+    )
     rows = tuple(
         (n, one.load * 1e-6, *(round(100 * e, 2) for e in one.errors))
         for n, mesh in found.items()
@@ -87,17 +96,17 @@ def line() -> CaseResult:
         method,
         tuple(checks),
         (ResultTable("All meshes: difference from Hertz in per cent.", header, rows),),
-        (_plot(every),),
+        (plot,),
     )
 
 
 def _pressed(elements: int, loads: np.ndarray) -> list[_Line]:
     modulus = contact_modulus(YOUNG, POISSON)
     largest = line_contact(float(loads.max()), modulus, RADIUS).half_width
-    datum, h, n = 10 * largest, largest / elements, round(_REACH * elements)
-    x = graded_lines((n + _MARGIN) * h, h, (_OUTER + 1) * largest, _GROWTH)
-    z = graded_lines(0.75 * largest, h, _OUTER * largest, _GROWTH)
-    size = n + _MARGIN + 1
+    datum, h, n = 10 * largest, largest / elements, round(REACH * elements)
+    x = graded_lines((n + MARGIN) * h, h, (OUTER + 1) * largest, GROWTH)
+    z = graded_lines(0.75 * largest, h, OUTER * largest, GROWTH)
+    size = n + MARGIN + 1
     c = (1 - POISSON**2) / (np.pi * YOUNG)
     F = Strip(x, z, YOUNG, POISSON).displacement(size)[:size, 0, 1]
     # measured from the point at the depth `datum`, which the line load moves by -2 c ln(datum)
@@ -114,18 +123,14 @@ def _pressed(elements: int, loads: np.ndarray) -> list[_Line]:
         width = float(np.sqrt(4 * (solution.forces @ points.at**2) / load))
         nodal = float(((upper.T @ solution.forces)[: n + 1] / (upper.T @ area)[: n + 1]).max())
         exact = line_contact(load, modulus, RADIUS)
+        p0 = exact.peak_pressure
         bracket = 2 * np.log(2 * datum / exact.half_width) - POISSON / (1 - POISSON)
         made.append(
             _Line(
                 load,
                 elements * exact.half_width / largest,
                 (width, 2 * load / (np.pi * width), nodal, solution.approach),
-                (
-                    exact.half_width,
-                    exact.peak_pressure,
-                    exact.peak_pressure,
-                    float(2 * load * c * bracket),
-                ),
+                (exact.half_width, p0, p0, float(2 * load * c * bracket)),
             )
         )
     return made
@@ -133,36 +138,9 @@ def _pressed(elements: int, loads: np.ndarray) -> list[_Line]:
 
 def _checks(one: _Line) -> list[Check]:
     names = ("half width", "peak", "peak, nodes", "approach")
-    units = (("mm", 1e3), ("MPa", 1e-6), ("MPa", 1e-6), ("µm", 1e6))
+    judged = (("mm", HERTZ, BAND), ("MPa", HERTZ, BAND), ("MPa", HERTZ, BAND),
+              ("µm", "Johnson (1985), eq. (5.58)", APPROACH_BAND))  # fmt: skip
     return [
-        Check(
-            f"{one.load * 1e-6:g} MN/m: {name}",
-            computed * scale,
-            exact * scale,
-            unit,
-            HERTZ if name != "approach" else "Johnson (1985), eq. (5.58)",
-            APPROACH_BAND if name == "approach" else BAND,
-        )
-        for name, (unit, scale), computed, exact in zip(
-            names, units, one.computed, one.exact, strict=True
-        )
+        check_shown(f"{one.load * 1e-6:g} MN/m: {name}", computed, exact, *how)
+        for name, how, computed, exact in zip(names, judged, one.computed, one.exact, strict=True)
     ]
-
-
-def _plot(every: list[_Line]) -> Plot:
-    n = [one.elements for one in every]
-    x = np.array([min(n), max(n)])
-    return Plot(
-        "Difference from Hertz against the elements over the half width; each point is one load "
-        "on one mesh.",
-        "Elements over the half width",
-        "Difference (%)",
-        (
-            curve("half width", n, [100 * abs(one.errors[0]) for one in every], "points"),
-            curve("peak, nodes", n, [100 * abs(one.errors[2]) for one in every], "points"),
-            curve("approach", n, [100 * abs(one.errors[3]) for one in every], "points"),
-            curve("second order", x, 10.0 * (x / x[0]) ** -2, "reference"),
-        ),
-        "log",
-        "log",
-    )

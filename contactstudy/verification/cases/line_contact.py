@@ -8,15 +8,7 @@ from contactstudy.validation import positive, raise_if
 
 @dataclass(frozen=True)
 class LineContact:
-    """Contact of cylinders with parallel axes, per length.
-
-    Parameters
-    ----------
-    half_width : float
-        [m].
-    peak_pressure : float
-        [Pa].
-    """
+    """Half width [m] and peak pressure [Pa] of cylinders with parallel axes."""
 
     half_width: float
     peak_pressure: float
@@ -27,10 +19,8 @@ def line_contact(load_per_length: float, modulus: float, radius: float) -> LineC
 
     Parameters
     ----------
-    load_per_length : float
-        P [N/m].
-    modulus : float
-        E* [N/m^2].
+    load_per_length, modulus : float
+        P [N/m], E* [N/m^2].
     radius : float
         Relative radius, 1/R = 1/R1 + 1/R2 [m].
 

@@ -53,51 +53,23 @@ class ManchesterRow:
     ----------
     case : int
         1 to 21.
-    wheel : {"left", "right"}
-    shift, yaw, roll : float
-        Of the wheelset: to the right [m], clockwise seen from above, right side down [rad].
+    shift, yaw : float
+        Of the wheelset: to the right [m], clockwise seen from above [rad].
     patch : int
         1 for the largest normal force.
     y, z : float
-        Contact position in the benchmark's rail coordinates: y to the right for both rails, z
-        down, origin on top of the rail [m]. It is the centroid of the overlap weighted with the
-        square of its depth.
-    wheel_s : float
-        Centre of pressure on the wheel: arc length from the tape circle to the field side [m].
-    x : float
-        Centre of pressure along the track, ahead of the axle's middle plane at the tape circle [m].
-    angle : float
-        Contact angle at the contact position [rad].
-    normal_force, vertical_force : float
-        Normal force, and its vertical part without friction [N].
-    approach : float
-        Largest overlap of the undeformed bodies along the normal [m].
-    peak_pressure : float
-        [Pa].
-    area : float
-        [m^2].
-    along, across : float
-        Semi-axes of the ellipse of Hertz with the same second moments [m].
+        Contact position `found.reference` in the benchmark's rail coordinates: y to the right for
+        both rails, z down, origin on top of the rail [m].
     """
 
     case: int
     wheel: Side
     shift: float
     yaw: float
-    roll: float
     patch: int
     y: float
     z: float
-    wheel_s: float
-    x: float
-    angle: float
-    normal_force: float
-    vertical_force: float
-    approach: float
-    peak_pressure: float
-    area: float
-    along: float
-    across: float
+    found: Patch
 
 
 @lru_cache(maxsize=1)
@@ -108,34 +80,16 @@ def benchmark_wheelset() -> Wheelset:
 
 
 def benchmark_pose(case: int, wheel: Side) -> Pose:
-    """Position of one wheel on its rail.
-
-    Parameters
-    ----------
-    case : int
-        1 to 21.
-    wheel : {"left", "right"}
-
-    Returns
-    -------
-    Pose
-        In this rail's axes, Y to the field side.
-    """
+    """Position of one wheel on its rail, case 1 to 21, in this rail's axes, Y to the field side."""
     shift, yaw = 0.5e-3 * (case - 1), 1.2e-3 * (case - 1)
     return benchmark_wheelset().pose(wheel, shift, yaw, ROLL[case - 1])
 
 
-def benchmark_patches(
-    case: int, wheel: Side, friction: float = FRICTION, side: float = 0.2e-3
-) -> tuple[Patch, ...]:
+def benchmark_patches(case: int, wheel: Side, side: float = 0.2e-3) -> tuple[Patch, ...]:
     """Contact patches of one wheel at one position.
 
     Parameters
     ----------
-    case, wheel
-        As in `benchmark_pose`.
-    friction : float
-        Coefficient of friction; it enters the vertical balance only.
     side : float
         Side of the cells [m].
     """
@@ -143,12 +97,12 @@ def benchmark_patches(
     bodies = Geometry(rail_curve(RAIL), wheel_curve("S1002"), RADIUS, pose)
     pitch = PITCH_RATE[case - 1]
     load = LOAD
-    # sum of normal and friction forces: a few steps of a fixed point, the share of friction
-    # hardly depends on the load
+    # sum of normal and friction forces: a few steps of a fixed point, the share of friction, which
+    # enters this balance only, hardly depends on the load
     for _ in range(8):
         press = press_wheel(bodies, load, MODULUS, side=side)
         lift = [
-            vertical_friction(p, bodies.placed, SPEED, pitch, friction, SHEAR_MODULUS)
+            vertical_friction(p, bodies.placed, SPEED, pitch, FRICTION, SHEAR_MODULUS)
             for p in press.patches
         ]
         total = sum(p.vertical_force for p in press.patches) + sum(lift)
@@ -161,7 +115,6 @@ def benchmark_patches(
 def manchester_rows(
     cases: tuple[int, ...] = tuple(range(1, 22)),
     wheels: tuple[Side, ...] = ("left", "right"),
-    friction: float = FRICTION,
     side: float = 0.2e-3,
 ) -> list[ManchesterRow]:
     """All contact patches of both wheels at the benchmark's positions.
@@ -170,9 +123,6 @@ def manchester_rows(
     ----------
     cases : tuple of int
         Positions, 1 to 21: shift 0 to 10 mm by 0.5 mm, yaw 0 to 24 mrad by 1.2 mrad.
-    wheels : tuple of {"left", "right"}
-    friction : float
-        Coefficient of friction in the vertical balance; 0 for normal forces alone.
     side : float
         Side of the cells [m]; 0.2 mm are CONTACT's, whose contact area counts whole cells.
 
@@ -187,27 +137,17 @@ def manchester_rows(
         # the highest point of the inclined crown, above its own top
         top = (1.0 / math.cos(INCLINATION) - 1.0) * float(rail_curve(RAIL).curvature(0.0)) ** -1
         for case in cases:
-            for number, p in enumerate(benchmark_patches(case, wheel, friction, side), start=1):
+            for number, p in enumerate(benchmark_patches(case, wheel, side), start=1):
                 rows.append(
                     ManchesterRow(
                         case=case,
                         wheel=wheel,
                         shift=0.5e-3 * (case - 1),
                         yaw=1.2e-3 * (case - 1),
-                        roll=ROLL[case - 1],
                         patch=number,
                         y=sign * (p.reference.y - ORIGIN),
                         z=top - p.reference.z,
-                        wheel_s=p.wheel_s,
-                        x=p.x,
-                        angle=p.reference.angle,
-                        normal_force=p.normal_force,
-                        vertical_force=p.vertical_force,
-                        approach=p.approach,
-                        peak_pressure=p.peak_pressure,
-                        area=p.area,
-                        along=p.along,
-                        across=p.across,
+                        found=p,
                     )
                 )
     return rows

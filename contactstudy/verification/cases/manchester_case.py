@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from contactstudy.geometry.wheelset import Side
-from contactstudy.plot.curves import Plot, curve
+from contactstudy.plot.curves import Curve, Plot, Style, curve
 from contactstudy.verification.cases.manchester import ManchesterRow, manchester_rows
-from contactstudy.verification.check import CaseResult, Check, ResultTable
+from contactstudy.verification.check import CaseResult, Check, ResultTable, check_shown
 
 SOURCE = "CONTACT 25.2, published reference output"
 # case: approach [m], peak pressure [Pa], area [m^2], |y| on the rail [m], left wheel
@@ -73,15 +73,16 @@ def published_checks(rows: list[ManchesterRow]) -> tuple[Check, ...]:
             continue
         where = f"left wheel at {1e3 * row.shift:g} mm"
         approach, pressure, area, y = PUBLISHED[row.case]
+        found = row.found
         checks += [
-            Check(f"approach, {where}", 1e6 * row.approach, 1e6 * approach, "µm", SOURCE,
-                  APPROACH_BAND),
-            Check(f"peak pressure, {where}", 1e-6 * row.peak_pressure, 1e-6 * pressure, "MPa",
-                  SOURCE, PRESSURE_BAND),
-            Check(f"area, {where}", 1e6 * row.area, 1e6 * area, "mm²", SOURCE, AREA_BAND),
-            Check(f"contact position y, {where}", 1e3 * row.y, 1e3 * y, "mm", SOURCE,
-                  POSITION_BAND, scale=1e3 * row.across),
-        ]  # fmt: skip
+            check_shown(f"{quantity}, {where}", computed, reference, unit, SOURCE, band, scale)
+            for quantity, computed, reference, unit, band, scale in (
+                ("approach", found.approach, approach, "µm", APPROACH_BAND, None),
+                ("peak pressure", found.peak_pressure, pressure, "MPa", PRESSURE_BAND, None),
+                ("area", found.area, area, "mm²", AREA_BAND, None),
+                ("contact position y", row.y, y, "mm", POSITION_BAND, found.across),
+            )
+        ]
     return tuple(checks)
 
 
@@ -93,10 +94,10 @@ def rows_table(rows: list[ManchesterRow], wheel: str) -> ResultTable:
         ("shift (mm)", "yaw (mrad)", "patch", "y (mm)", "z (mm)", "s wheel (mm)",
          "contact angle (mrad)", "N (kN)", "approach (µm)", "peak pressure (MPa)", "area (mm²)"),
         tuple(
-            (1e3 * r.shift, 1e3 * r.yaw, r.patch, 1e3 * r.y, 1e3 * r.z, 1e3 * r.wheel_s,
-             1e3 * r.angle, 1e-3 * r.normal_force, 1e6 * r.approach, 1e-6 * r.peak_pressure,
-             1e6 * r.area)
-            for r in rows
+            (1e3 * r.shift, 1e3 * r.yaw, r.patch, 1e3 * r.y, 1e3 * r.z, 1e3 * p.wheel_s,
+             1e3 * p.reference.angle, 1e-3 * p.normal_force, 1e6 * p.approach,
+             1e-6 * p.peak_pressure, 1e6 * p.area)
+            for r, p in ((r, r.found) for r in rows)
             if r.wheel == wheel
         ),
     )  # fmt: skip
@@ -110,8 +111,8 @@ def _smaller_cells() -> ResultTable:
         for side in sides:
             r = manchester_rows((case,), (wheel,), side=side)[0]
             rows.append(
-                (1e3 * r.shift, wheel, 1e3 * side, 1e3 * r.across, 1e6 * r.approach,
-                 1e-6 * r.peak_pressure, 1e6 * r.area)
+                (1e3 * r.shift, wheel, 1e3 * side, 1e3 * r.found.across, 1e6 * r.found.approach,
+                 1e-6 * r.found.peak_pressure, 1e6 * r.found.area)
             )  # fmt: skip
     return ResultTable(
         "What the cells of 0.2 mm leave: the same positions on smaller ones. The area shrinks, "
@@ -123,21 +124,17 @@ def _smaller_cells() -> ResultTable:
 
 
 def _plot(rows: list[ManchesterRow], name: str, label: str, scale: float) -> Plot:
+    def drawn(name_shown: str, chosen: list[ManchesterRow], style: Style) -> Curve:
+        x, y = [1e3 * r.shift for r in chosen], [scale * getattr(r.found, name) for r in chosen]
+        return curve(name_shown, x, y, style)
+
     curves = []
     for wheel in ("left", "right"):
         chosen = [r for r in rows if r.wheel == wheel and r.patch == 1]
-        curves.append(
-            curve(
-                f"{wheel} wheel",
-                [1e3 * r.shift for r in chosen],
-                [scale * getattr(r, name) for r in chosen],
-                "both",
-            )
-        )
+        curves.append(drawn(f"{wheel} wheel", chosen, "both"))
     second = [r for r in rows if r.patch > 1]
     if second:
-        x, y = [1e3 * r.shift for r in second], [scale * getattr(r, name) for r in second]
-        curves.append(curve("second patch", x, y, "points"))
+        curves.append(drawn("second patch", second, "points"))
     return Plot(
         f"{label.split(' (')[0].capitalize()} over the lateral shift of the wheelset. "
         f"Left wheel from {curves[0].y[0]:.4g} to {curves[0].y[-1]:.4g}, "

@@ -54,15 +54,7 @@ METHOD = (
 
 
 def influence_matrix(x: Array, y: Array, width: float, breadth: float, modulus: float) -> Array:
-    """Approach at the centres of equal rectangles for unit pressure on each, (n, n) [m/Pa].
-
-    Parameters
-    ----------
-    x, y : ndarray (n,)
-        Centres [m].
-    width, breadth, modulus
-        As in `love_influence`.
-    """
+    """Approach at the centres (n,) [m] of equal rectangles for unit pressure on each, [m/Pa]."""
     return love_influence(x[:, None] - x[None, :], y[:, None] - y[None, :], width, breadth, modulus)
 
 
@@ -110,14 +102,13 @@ def patch_filter() -> CaseResult:
     for wavelength, ratio in PUBLISHED:
         at = np.array([wavelength])
         where = f"amplitude ratio at {1e3 * wavelength:g} mm"
-        computed = float(small_amplitude_filter(weights, x, at)[0])
-        source = "independent half-space computation"
         checks += [
-            Check(f"{where}, half-spaces", computed, ratio, "", source, 0.01),
-            Check(
-                f"{where}, closed form", float(ellipse_filter(a, at)[0]), ratio, "", source, 0.01
-            ),
-            Check(f"{where}, amplitude 10 µm", pressed(wavelength), ratio, "", source, 0.01),
+            Check(f"{where}, {how}", value, ratio, "", "independent half-space computation", 0.01)
+            for how, value in (
+                ("half-spaces", float(small_amplitude_filter(weights, x, at)[0])),
+                ("closed form", float(ellipse_filter(a, at)[0])),
+                ("amplitude 10 µm", pressed(wavelength)),
+            )
         ]
     resolved = WAVELENGTHS >= RESOLVED
     for name, found, of, band in (
@@ -126,18 +117,9 @@ def patch_filter() -> CaseResult:
         ("rail and wheel, 2 mm, shorter waves", ours, ~resolved, None),
     ):
         worst = int(np.argmax(np.where(of, np.abs(found - exact), -1.0)))
-        checks.append(
-            Check(
-                f"amplitude ratio where it is furthest off, {1e3 * WAVELENGTHS[worst]:.1f} mm, "
-                f"{name}",
-                float(found[worst]),
-                float(exact[worst]),
-                "",
-                closed,
-                band,
-                scale=1.0,
-            )
-        )
+        pair = float(found[worst]), float(exact[worst])
+        where = f"amplitude ratio where it is furthest off, {1e3 * WAVELENGTHS[worst]:.1f} mm"
+        checks.append(Check(f"{where}, {name}", *pair, "", closed, band, scale=1.0))
     columns = (
         ellipse_filter(a, SHOWN),
         small_amplitude_filter(weights, x, SHOWN),

@@ -19,8 +19,8 @@ def boussinesq(
     ----------
     x, y, depth : ndarray (...)
         Position in m, depth positive into the body; not the origin.
-    youngs_modulus, poisson_ratio : float
-        Elastic constants, E in Pa.
+    youngs_modulus : float
+        In Pa.
 
     Returns
     -------
@@ -46,8 +46,8 @@ def flamant(x: Array, depth: Array, youngs_modulus: float, poisson_ratio: float)
     ----------
     x, depth : ndarray (...)
         In m, not the origin.
-    youngs_modulus, poisson_ratio : float
-        E in Pa.
+    youngs_modulus : float
+        In Pa.
 
     Returns
     -------

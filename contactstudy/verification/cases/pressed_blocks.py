@@ -79,15 +79,16 @@ class Blocks:
 
     def press(self, load: float, penalty: float) -> BlockPress:
         """Press with a resultant in N."""
-        M = self.flexibility + np.diag(Penalty(penalty).compliance(self.points.area))
-        solution = press(M, self.points.gap, self.points.normal_z, load)
+        solution = press(self._coupling(penalty), self.points.gap, self.points.normal_z, load)
         return self._described(solution, load, solution.approach)
 
     def crush(self, approach: float, penalty: float) -> BlockPress:
         """Press by an approach in m."""
-        M = self.flexibility + np.diag(Penalty(penalty).compliance(self.points.area))
-        solution = contact_forces(M, self.points.gap - approach)
+        solution = contact_forces(self._coupling(penalty), self.points.gap - approach)
         return self._described(solution, float(solution.forces.sum()), approach)
+
+    def _coupling(self, penalty: float) -> Array:
+        return self.flexibility + np.diag(Penalty(penalty).compliance(self.points.area))
 
     def _described(self, solution: PatchForces, load: float, approach: float) -> BlockPress:
         points, n = self.points, len(self.points.x)
@@ -107,15 +108,8 @@ class Blocks:
         )
         mirrored = whole(np.asarray(share * solution.forces))
         nodal = float(points.nodal_pressure(solution.forces).max())
-        return BlockPress(
-            load,
-            approach,
-            contact_ellipse(both, mirrored),
-            nodal,
-            both,
-            whole(gap),
-            mirrored > 0.0,
-        )
+        ellipse = contact_ellipse(both, mirrored)
+        return BlockPress(load, approach, ellipse, nodal, both, whole(gap), mirrored > 0.0)
 
 
 @cache
@@ -137,10 +131,8 @@ def blocks(
         Elements over each; the element's sides are in the ratio of the semi-axes.
     radii : tuple of float
         Relative radii R_x, R_y of the gap, m.
-    youngs_modulus, poisson_ratio : float
-        Of both bodies, E in Pa.
-    quadrature : {"gauss", "nodes"}
-        Contact points.
+    youngs_modulus : float
+        Of both bodies, Pa.
     """
     outer = OUTER * max(semi_axes)
     n = round(REACH * elements)
@@ -153,7 +145,7 @@ def blocks(
     loaded = slice(0, n + MARGIN + 1)
     block = HalfSpaceBlock(lines[0], lines[1], depth, youngs_modulus, poisson_ratio)
     patch = block.patch((loaded, loaded))
-    points = _points(patch.x[: n + 1], patch.y[: n + 1], radii, quadrature)
+    points = block_points(patch.x[: n + 1], patch.y[: n + 1], radii, quadrature)
     size = len(patch.x) * len(patch.y)
     # lower body: spline through its surface nodes, mirrored in both planes; as in the program
     lower = np.kron(
@@ -166,7 +158,7 @@ def blocks(
     return Blocks(points, lower @ F @ lower.T + upper @ F @ upper.T)
 
 
-def _points(
+def block_points(
     x: Array, y: Array, radii: tuple[float, float], quadrature: Quadrature
 ) -> ContactPoints:
     """Contact points of the facets between the lines, over Hertz's paraboloid."""

@@ -44,8 +44,6 @@ def refined(
 
     Parameters
     ----------
-    key : str
-        E.g. "solid.mesh_size".
     levels : sequence of float
         SI values, coarsest first.
     default : float
@@ -54,8 +52,6 @@ def refined(
         Further keys, ``key=value``.
     size : callable
         From a level to what goes to zero.
-    algebraic : bool
-        As in `Refinement`.
     """
     runs = tuple(surface_run(*changes, f"{key}={level!r}") for level in levels)
     sizes = tuple(size(level) for level in levels)

@@ -39,7 +39,6 @@ class Refinement:
         modes; decreasing.
     default : int
         Level that has the program's default.
-    runs : tuple of Dataset
     algebraic : bool
         An error like a power of the size is expected.
     """

@@ -7,7 +7,7 @@ import numpy as np
 from contactstudy.halfspace.hertz import contact_modulus, hertz_contact
 from contactstudy.plot.curves import Plot, curve
 from contactstudy.verification.cases.refinement import BAND, QUANTITIES, Refinement, common
-from contactstudy.verification.check import Cell, Check, ResultTable
+from contactstudy.verification.check import Cell, Check, ResultTable, check_at_most
 
 
 def tables(name: str, scale: float, series: Refinement) -> tuple[ResultTable, ...]:
@@ -58,16 +58,9 @@ def left_checks(
     """Error left at the default: contact force, dynamic part, mean peak pressure."""
     left = series.left_at_default
     source = "difference from the finest level and that one's own error"
+    name = f"error left by the default {what}"
     return tuple(
-        Check(
-            f"error left by the default {what}: {QUANTITIES[q]}",
-            100 * float(left[q]),
-            limit,
-            "%",
-            source,
-            0.0,
-            "at_most",
-        )
+        check_at_most(f"{name}: {QUANTITIES[q]}", 100 * float(left[q]), limit, "%", source)
         for q, limit in zip((0, 1, 4), limits, strict=True)
     )
 

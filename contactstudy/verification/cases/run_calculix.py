@@ -22,8 +22,6 @@ class CalculixRun:
     ----------
     presses : tuple of CalculixPress
         Of the load steps.
-    version : str
-        Of CalculiX.
     solutions : int
         Systems of equations solved.
     cpu_seconds : float
@@ -65,8 +63,6 @@ def run_calculix(
 
     Parameters
     ----------
-    text : str
-        The input file.
     penalty : float
         That it was written with, in Pa/m.
     symmetric : bool

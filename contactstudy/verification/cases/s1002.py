@@ -15,7 +15,7 @@ from contactstudy.study.kinds.passage.placing import geometry
 from contactstudy.study.kinds.passage.schema import Study
 from contactstudy.study.loading import load_study
 from contactstudy.verification.cases.contact_ellipse import contact_ellipse
-from contactstudy.verification.check import CaseResult, Check, ResultTable
+from contactstudy.verification.check import CaseResult, Check, ResultTable, check_shown
 
 LOADS = np.array([0.25, 0.5, 0.75, 1.0]) * 67.4e3
 _METHOD = """
@@ -60,22 +60,17 @@ def solid_press() -> CaseResult:
         own, theirs = approach - far * load, reference.travel
         at = f"at {load / 1e3:.1f} kN"
         checks += [
-            _check(f"semi-axis along {at}", ellipse.along, patch.along, "mm", 0.03),
-            _check(f"semi-axis across {at}", ellipse.across, patch.across, "mm", 0.03),
-            Check(
-                f"centre of pressure {at}",
-                1e3 * ellipse.centre[1],
-                1e3 * patch.centre.y,
-                "mm",
-                _SOURCE,
-                0.06,
-                scale=1e3 * patch.across,
-            ),
-            _check(f"area {at}", area, patch.area, "mm²", 0.05),
-            _check(f"peak pressure {at}", peak, patch.peak_pressure, "MPa", None),
+            check_shown(f"{quantity} {at}", computed, wanted, unit, _SOURCE, band, scale)
+            for quantity, computed, wanted, unit, band, scale in (
+                ("semi-axis along", ellipse.along, patch.along, "mm", 0.03, None),
+                ("semi-axis across", ellipse.across, patch.across, "mm", 0.03, None),
+                ("centre of pressure", ellipse.centre[1], patch.centre.y, "mm", 0.06, patch.across),
+                ("area", area, patch.area, "mm²", 0.05, None),
+                ("peak pressure", peak, patch.peak_pressure, "MPa", None, None),
+            )
         ]
         if load < LOADS[-1]:
-            checks.append(_check(f"approach {at}", own, theirs, "µm", 0.02))
+            checks.append(check_shown(f"approach {at}", own, theirs, "µm", _SOURCE, 0.02))
         secant = load / own * 1e-9
         rows.append((load / 1e3, approach * 1e6, own * 1e6, theirs * 1e6, secant))
     table = ResultTable(
@@ -90,14 +85,6 @@ def solid_press() -> CaseResult:
         tuple(checks),
         tables=(table,),
     )
-
-
-def _check(
-    quantity: str, computed: float, reference: float, unit: str, band: float | None
-) -> Check:
-    """A check of SI values, shown in a handy unit."""
-    factor = {"mm": 1e3, "mm²": 1e6, "µm": 1e6, "MPa": 1e-6}[unit]
-    return Check(quantity, factor * computed, factor * reference, unit, _SOURCE, band)
 
 
 def _half_space(study: Study, placed: Geometry, load: float) -> WheelPress:

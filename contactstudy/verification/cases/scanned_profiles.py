@@ -12,7 +12,6 @@ from contactstudy.arrays import Array
 from contactstudy.geometry.placement import Geometry
 from contactstudy.geometry.pose import Pose
 from contactstudy.halfspace.hertz import contact_modulus
-from contactstudy.halfspace.patch import WheelPress
 from contactstudy.halfspace.patches import press_wheel
 from contactstudy.plot.curves import Plot, curve
 from contactstudy.profiles.curve import ProfileCurve
@@ -26,7 +25,13 @@ from contactstudy.verification.cases.synthetic_scan import (
     Standing,
     synthetic_scan,
 )
-from contactstudy.verification.check import CaseResult, Check, ResultTable
+from contactstudy.verification.check import (
+    CaseResult,
+    Check,
+    ResultTable,
+    check_at_most,
+    check_shown,
+)
 
 LOAD = 67.4e3
 POSES = {
@@ -56,40 +61,22 @@ def scanned_profiles() -> CaseResult:
         fitted = Geometry(scans["rail"].curve, scans["wheel"].curve, RADIUS, pose)
         touch = drawn.touch
         ours, theirs = (press_wheel(bodies, LOAD, modulus) for bodies in (fitted, drawn))
-        semi_axis = theirs.patches[0].across
-        checks.append(
-            Check(
-                f"first touch on the rail, {name}",
-                1e3 * found.smooth.arc,
-                1e3 * touch.arc,
-                "mm",
-                "exact profiles; over the patch's semi-axis",
-                0.1,
-                scale=1e3 * semi_axis,
+        a, b, halves = ours.patches[0], theirs.patches[0], "exact profiles, half-spaces"
+        checks += [
+            check_shown(f"{quantity}, {name}", computed, reference, unit, source, band, scale)
+            for quantity, computed, reference, unit, source, band, scale in (
+                ("first touch on the rail", found.smooth.arc, touch.arc, "mm",
+                 "exact profiles; over the patch's semi-axis", 0.1, b.across),
+                ("height of the facets' first touch", found.facets.travel, touch.travel, "um",
+                 "exact profiles; over the approach", 0.1, theirs.travel),
+                ("approach", ours.travel, theirs.travel, "um", halves, 0.01, None),
+                ("peak pressure", a.peak_pressure, b.peak_pressure, "MPa", halves, 0.03, None),
+                ("area", a.area, b.area, "mm^2", halves, 0.03, None),
             )
-        )
-        checks.append(
-            Check(
-                f"height of the facets' first touch, {name}",
-                1e6 * found.facets.travel,
-                1e6 * touch.travel,
-                "um",
-                "exact profiles; over the approach",
-                0.1,
-                scale=1e6 * theirs.travel,
-            )
-        )
-        checks += _pressed(name, ours, theirs)
+        ]  # fmt: skip
     rows = [
-        (
-            scan.name,
-            scan.fit.points,
-            1e6 * scan.fit.rms,
-            1e6 * scan.fit.largest,
-            1e6 * scan.fit.scatter,
-            scan.fit.knots,
-        )
-        for scan in scans.values()
+        (name, fit.points, 1e6 * fit.rms, 1e6 * fit.largest, 1e6 * fit.scatter, fit.knots)
+        for name, fit in ((scan.name, scan.fit) for scan in scans.values())
     ]
     table = ResultTable(
         "Fits of the smooth surfaces to the scans.",
@@ -136,43 +123,21 @@ def _shape(scan: Scan, exact: ProfileCurve) -> tuple[list[Check], Plot]:
     kind = exact.name
     # where a wheel runs: crown to gauge corner, tread to flange root
     inner = np.abs(s) < 0.03
+    noise, largest = 1e6 * NOISE, float(np.abs(error[inner]).max())
+    fitted = f"error of the fitted {kind}"
     checks = [
-        Check(f"residual of {kind}, rms", 1e6 * scan.fit.rms, 1e6 * NOISE, "um", "the noise", 0.1),
-        Check(
-            f"error of the fitted {kind}, rms",
-            1e6 * float(np.sqrt(np.mean(error[inner] ** 2))),
-            1e6 * NOISE,
-            "um",
-            "below the noise",
-            0.0,
-            "at_most",
-        ),
-        Check(
-            f"error of the fitted {kind}, largest",
-            1e6 * float(np.abs(error[inner]).max()),
-            1e6 * NOISE,
-            "um",
-            "within the noise",
-            0.0,
-            "at_most",
-        ),
+        Check(f"residual of {kind}, rms", 1e6 * scan.fit.rms, noise, "um", "the noise", 0.1),
+        check_at_most(f"{fitted}, rms", 1e6 * _rms(error[inner]), noise, "um", "below the noise"),
+        check_at_most(f"{fitted}, largest", 1e6 * largest, noise, "um", "within the noise"),
     ]
     ours, theirs = (_mean_curvature(c, s) for c in (scan.curve, exact))
-    scale = float(np.abs(theirs[inner]).max())
-    checks.append(
-        Check(
-            f"error of the curvature of {kind} over {1e3 * _CURVATURE_OVER:g} mm, rms",
-            float(np.sqrt(np.mean((ours - theirs)[inner] ** 2))),
-            0.0,
-            "1/m",
-            f"over the largest curvature, {scale:.3g} 1/m",
-            None,
-            scale=scale,
-        )
-    )
+    scale, turned = float(np.abs(theirs[inner]).max()), _rms((ours - theirs)[inner])
+    name = f"error of the curvature of {kind} over {1e3 * _CURVATURE_OVER:g} mm, rms"
+    source = f"over the largest curvature, {scale:.3g} 1/m"
+    checks.append(Check(name, turned, 0.0, "1/m", source, None, scale=scale))
     figure = Plot(
         f"Distance of the curve fitted to the scan of {kind} from the exact profile: "
-        f"{1e6 * float(np.abs(error[inner]).max()):.2g} um at most within 30 mm of its origin, "
+        f"{1e6 * largest:.2g} um at most within 30 mm of its origin, "
         f"from points with {1e6 * NOISE:g} um of noise each.",
         "arc length (mm)",
         "error (um)",
@@ -190,18 +155,5 @@ def _mean_curvature(profile: ProfileCurve, s: Array) -> Array:
     return np.asarray(side * np.arcsin(turn) / (2.0 * half))
 
 
-def _pressed(name: str, ours: WheelPress, theirs: WheelPress) -> list[Check]:
-    source = "exact profiles, half-spaces"
-    a, b = ours.patches[0], theirs.patches[0]
-    return [
-        Check(f"approach, {name}", 1e6 * ours.travel, 1e6 * theirs.travel, "um", source, 0.01),
-        Check(
-            f"peak pressure, {name}",
-            1e-6 * a.peak_pressure,
-            1e-6 * b.peak_pressure,
-            "MPa",
-            source,
-            0.03,
-        ),
-        Check(f"area, {name}", 1e6 * a.area, 1e6 * b.area, "mm^2", source, 0.03),
-    ]
+def _rms(values: Array) -> float:
+    return float(np.sqrt(np.mean(values**2)))

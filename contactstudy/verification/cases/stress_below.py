@@ -51,40 +51,13 @@ def below_sphere() -> CaseResult:
     rows = sphere_stresses()
     best = rows[-1]
     checks = [
-        Check("maximum shear over p0, finite elements", best.shear, SPHERE_SHEAR, "", SOURCE, 0.03),
-        Check("its depth over a, finite elements", best.depth, SPHERE_DEPTH, "", SOURCE, 0.03),
+        *_maximum("a, finite elements", best.shear, SPHERE_SHEAR, best.depth, SPHERE_DEPTH),
         Check("von Mises over p0, finite elements", best.mises, 2 * SPHERE_SHEAR, "", SOURCE, 0.03),
-        Check(
-            "order of the shear's error",
-            shear_order(rows, exact_sphere_shear()),
-            2.0,
-            "",
-            "linear hexahedra",
-            0.25,
-        ),
+        _order(rows, exact_sphere_shear()),
     ]
     for row in rows:
-        where = f"{row.elements:g} elements over a"
-        checks.append(
-            Check(
-                f"maximum shear over p0, recovered field, {where}",
-                row.field_shear,
-                SPHERE_SHEAR,
-                "",
-                SOURCE,
-                0.03,
-            )
-        )
-        checks.append(
-            Check(
-                f"its depth over a, recovered field, {where}",
-                row.field_depth,
-                SPHERE_DEPTH,
-                "",
-                SOURCE,
-                0.03,
-            )
-        )
+        where = f"a, recovered field, {row.elements:g} elements over a"
+        checks += _maximum(where, row.field_shear, SPHERE_SHEAR, row.field_depth, SPHERE_DEPTH)
     return CaseResult(
         "subsurface_sphere",
         "Stress below a sphere on a flat",
@@ -110,18 +83,8 @@ def below_line() -> CaseResult:
         "displacements on their outer faces, pressed over a cylinder's gap. Stresses as for the "
         "sphere.",
         (
-            Check(
-                "maximum shear over p0, finite elements", best.shear, LINE_SHEAR, "", SOURCE, 0.03
-            ),
-            Check("its depth over b, finite elements", best.depth, LINE_DEPTH, "", SOURCE, 0.03),
-            Check(
-                "order of the shear's error",
-                shear_order(rows, exact_line_shear()),
-                2.0,
-                "",
-                "linear hexahedra",
-                0.25,
-            ),
+            *_maximum("b, finite elements", best.shear, LINE_SHEAR, best.depth, LINE_DEPTH),
+            _order(rows, exact_line_shear()),
         ),
         (_table(rows, "b"),),
     )
@@ -144,6 +107,21 @@ def below_ellipses() -> CaseResult:
         "largest shear is looked for in the whole body.",
         tuple(checks),
     )
+
+
+def _maximum(
+    where: str, shear: float, exact: float, depth: float, exact_depth: float
+) -> tuple[Check, Check]:
+    """Largest shear and its depth, `where` beginning with the axis."""
+    return (
+        Check(f"maximum shear over p0, {where[3:]}", shear, exact, "", SOURCE, 0.03),
+        Check(f"its depth over {where}", depth, exact_depth, "", SOURCE, 0.03),
+    )
+
+
+def _order(rows: tuple[LargestStresses, ...], exact: float) -> Check:
+    order = shear_order(rows, exact)
+    return Check("order of the shear's error", order, 2.0, "", "linear hexahedra", 0.25)
 
 
 def _table(rows: tuple[LargestStresses, ...], axis: str) -> ResultTable:

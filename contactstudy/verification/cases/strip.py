@@ -9,8 +9,8 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.linalg import splu
 
 from contactstudy.arrays import Array, IntArray
-from contactstudy.solids.hexahedron import hex_stiffness, strain_operators
-from contactstudy.verification.cases.element_stress import hex_stress, nodal_stress
+from contactstudy.solids.hexahedron import hex_stiffness
+from contactstudy.verification.cases.element_stress import stress_at_nodes
 from contactstudy.verification.cases.point_loads import flamant
 
 
@@ -22,8 +22,8 @@ class Strip:
     ----------
     x, depth : ndarray (nx,), (nz,)
         Mesh lines in m from 0.
-    youngs_modulus, poisson_ratio : float
-        E in Pa.
+    youngs_modulus : float
+        In Pa.
     """
 
     x: Array
@@ -47,7 +47,7 @@ class Strip:
             for px in (self.x[k], -self.x[k]):  # on the axis twice the half
                 u[outer, :, k] += 0.5 * flamant(X[outer] - px, Z[outer], *self._constants)
         # both faces of the strip move alike and not across: one pair of dofs for two corners
-        corner = self._quads()[:, [0, 1, 2, 3, 0, 1, 2, 3]]
+        corner = np.tile(self._quads(), 2)
         dofs = (2 * corner[:, :, None] + np.arange(2)).reshape(len(corner), -1)
         K = hex_stiffness(self._corners(), *self._constants).reshape(-1, 8, 3, 8, 3)
         K = K[:, :, [0, 2]][:, :, :, :, [0, 2]].reshape(-1, 16, 16)
@@ -65,10 +65,7 @@ class Strip:
         quads, corners = self._quads(), self._corners()
         u = np.zeros((len(quads), 8, 3))
         u[:, :4, [0, 2]] = u[:, 4:, [0, 2]] = displacement.reshape(-1, 2)[quads]
-        gauss = hex_stress(corners, u, *self._constants)
-        volume = strain_operators(corners)[2].sum(axis=1)
-        n = displacement.shape[0] * displacement.shape[1]
-        nodal = nodal_stress(gauss, quads[:, [0, 1, 2, 3, 0, 1, 2, 3]], volume, n)
+        nodal = stress_at_nodes(corners, u, np.tile(quads, 2), *self._constants)
         return nodal.reshape(*displacement.shape[:2], 6)
 
     @property

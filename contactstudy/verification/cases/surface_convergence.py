@@ -12,8 +12,9 @@ from contactstudy.verification.cases.refinement_report import (
     peak_over_hertz,
     tables,
 )
-from contactstudy.verification.check import CaseResult, Check, ResultTable
+from contactstudy.verification.check import CaseResult, Check, ResultTable, check_at_most
 
+HERTZ = "Hertz under the same forces"
 METHOD = (
     "The default study (36 m of track, Table 1's roughness, seed 1, 300 km/h) from 12 m on, over "
     "2.4 m after a fade-in of 1.2 m, solved at several levels of one thing; all else has its "
@@ -49,14 +50,7 @@ def mesh() -> CaseResult:
     checks = (
         *left_checks(fine, "mesh size, 2 mm", (0.1, 0.4, 3.0)),
         *left_checks(inner, "largest element, 9 mm", (0.15, 0.5, 1.0)),
-        Check(
-            "mean peak pressure at 2 mm over Hertz's",
-            peak[fine.default],
-            1.0,
-            "",
-            "Hertz under the same forces",
-            0.04,
-        ),
+        Check("mean peak pressure at 2 mm over Hertz's", peak[fine.default], 1.0, "", HERTZ, 0.04),
     )
     return CaseResult(
         "convergence_mesh",
@@ -81,35 +75,19 @@ def penalty() -> CaseResult:
         "only lets go of points, the pressure is spread over fewer of them, and no order is seen. "
         "What that leaves in the force is small."
     )
-    order = nodes.orders[1]
+    left = "penetration left by the augmented Lagrangian"
+    order, overlap = nodes.orders[1], float(nodes.runs[-1].penetration.max())
     checks = (
         *left_checks(gauss, "penalty, 1e16 Pa/m, Gauss points", (0.05, 0.2, 0.5)),
         *left_checks(nodes, "penalty, 1e16 Pa/m, nodes", (0.01, 0.02, 0.2)),
-        Check(
-            "observed order of the force in 1/penalty, nodes, 1e15 to 1e17 Pa/m",
-            float(order[0]),
-            1.0,
-            "",
-            "theory",
-            0.05,
+        *(
+            Check(f"observed order of the {of}", float(order[q]), 1.0, "", "theory", 0.05)
+            for of, q in (
+                ("force in 1/penalty, nodes, 1e15 to 1e17 Pa/m", 0),
+                ("peak pressure, the same", 3),
+            )
         ),
-        Check(
-            "observed order of the peak pressure, the same",
-            float(order[3]),
-            1.0,
-            "",
-            "theory",
-            0.05,
-        ),
-        Check(
-            "penetration left by the augmented Lagrangian",
-            float(nodes.runs[-1].penetration.max()),
-            refined_runs.TOLERANCE,
-            "m",
-            "its tolerance",
-            0.0,
-            "at_most",
-        ),
+        check_at_most(left, overlap, refined_runs.TOLERANCE, "m", "its tolerance"),
     )
     return CaseResult(
         "convergence_penalty",
@@ -156,17 +134,11 @@ def time_step() -> CaseResult:
         "and leave the patch every millimetre, at 83 kHz. At 4.2 mm a step, the default, neither "
         "is resolved, and the whole force converges with first order or less."
     )
-    order = found.orders
+    order = float(found.orders[-1, 2])
+    slope = f"observed order of the force below {BAND:g} Hz"
     checks = (
         *left_checks(found, "time step, 50 µs", (0.1, 0.3, 0.05)),
-        Check(
-            f"observed order of the force below {BAND:g} Hz, 50 to 12.5 µs",
-            float(order[-1, 2]),
-            2.0,
-            "",
-            "average acceleration",
-            0.2,
-        ),
+        Check(f"{slope}, 50 to 12.5 µs", order, 2.0, "", "average acceleration", 0.2),
     )
     return CaseResult(
         "convergence_time_step",
@@ -189,36 +161,24 @@ def defaults() -> CaseResult:
     }
     left = 100 * np.array([s.left_at_default for s in of.values()])
     total = np.sqrt((left**2).sum(axis=0))
-    rows = [(name, *row.tolist()) for name, row in zip(of, left, strict=True)]
-    header = ("default", "force (%)", "dynamic part (%)", "mean peak pressure (%)")
-    picked = tuple((r[0], r[1], r[2], r[5]) for r in rows)
+    names = (*of, "all, root of the sum of squares")
+    shown = np.vstack([left, total])[:, [0, 1, 4]].tolist()
     table = ResultTable(
         "Error left at the defaults",
-        header,
-        (*picked, ("all, root of the sum of squares", *total[[0, 1, 4]].tolist())),
+        ("default", "force (%)", "dynamic part (%)", "mean peak pressure (%)"),
+        tuple((name, *row) for name, row in zip(names, shown, strict=True)),
     )
-    peak = peak_over_hertz(refined_runs.mesh_series())[refined_runs.mesh_series().default]
+    fine = refined_runs.mesh_series()
+    peak = peak_over_hertz(fine)[fine.default]
+    left_over = "error left at the defaults"
     checks = (
         *(
-            Check(
-                f"error left at the defaults: {QUANTITIES[q]}",
-                float(total[q]),
-                limit,
-                "%",
-                "all series",
-                0.0,
-                "at_most",
+            check_at_most(
+                f"{left_over}: {QUANTITIES[q]}", float(total[q]), limit, "%", "all series"
             )
             for q, limit in ((0, 0.2), (1, 0.6))
         ),
-        Check(
-            "mean peak pressure over Hertz's",
-            float(peak),
-            1.0,
-            "",
-            "Hertz under the same forces",
-            0.04,
-        ),
+        Check("mean peak pressure over Hertz's", float(peak), 1.0, "", HERTZ, 0.04),
     )
     method = METHOD + "\n\nThe series have cases of their own, with every level."
     return CaseResult(

@@ -48,16 +48,12 @@ def synthetic_scan(
 
     Parameters
     ----------
-    profile : ProfileCurve
-        A rail's or a wheel's.
     half_length : float
         Half its length along X [m].
-    seed : int
     step : float
         Mean distance of the vertices [m].
     radius : float
         Of a wheel [m].
-    standing : Standing
 
     Returns
     -------

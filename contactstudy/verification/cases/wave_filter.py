@@ -33,19 +33,10 @@ from contactstudy.exceptions import InputError
 
 
 def ellipse_filter(semi_axis: float, wavelengths: Array) -> Array:
-    """Filter of Hertz's patch on half-spaces.
+    """Filter of Hertz's patch on half-spaces, half length a and wavelengths (k,) in m.
 
-    Parameters
-    ----------
-    semi_axis : float
-        Half length a of the patch along the rail in m.
-    wavelengths : ndarray (k,)
-        In m.
-
-    Returns
-    -------
-    ndarray (k,)
-        Ratio of the amplitude of the wheel's movement to that of the irregularity.
+    The filter (k,) is the ratio of the amplitude of the wheel's movement to that of the
+    irregularity.
     """
     # numpy's sinc has the factor pi in it: sin(k a)/(k a) with k = 2 pi/wavelength
     return np.asarray(np.abs(np.sinc(2 * semi_axis / np.asarray(wavelengths, dtype=float))))
@@ -72,20 +63,9 @@ def load_weights(M: Array, normal: Array, solution: PressedForces) -> Array:
 
 
 def small_amplitude_filter(weights: Array, x: Array, wavelengths: Array) -> Array:
-    """Filter for an irregularity of small amplitude.
+    """Filter (k,) for an irregularity of small amplitude and wavelengths (k,) in m.
 
-    Parameters
-    ----------
-    weights : ndarray (n,)
-        See `load_weights`.
-    x : ndarray (n,)
-        Positions of the points along the rail in m.
-    wavelengths : ndarray (k,)
-        In m.
-
-    Returns
-    -------
-    ndarray (k,)
+    The points at `x` (n,) in m along the rail have the weights (n,) of `load_weights`.
     """
     k = 2 * np.pi / np.asarray(wavelengths, dtype=float)
     return np.asarray(np.abs(np.exp(1j * k[:, None] * x) @ weights))
@@ -116,7 +96,6 @@ def pressed_filter(
 
     Parameters
     ----------
-    points : PatchPoints
     load : float
         In N.
     wavelength, amplitude : float

@@ -67,17 +67,7 @@ def disc() -> CaseResult:
 
 
 def disc_frequencies(annulus: Annulus, elements: int) -> dict[str, float]:
-    """Lowest frequencies in Hz of each kind; `elements` along the radius, twice as many by 90 deg.
-
-    Parameters
-    ----------
-    annulus : Annulus
-    elements : int
-
-    Returns
-    -------
-    dict
-    """
+    """Lowest frequencies in Hz of each kind; twice as many elements a quarter."""
     section = disc_section(annulus, elements)
     material = annulus.youngs_modulus, annulus.poisson_ratio, annulus.density
     highest = 1.2 * max(annulus.torsion(), annulus.breathing())

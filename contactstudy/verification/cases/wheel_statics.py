@@ -12,6 +12,7 @@ from contactstudy.verification.check import CaseResult, Check, ResultTable
 EVEN = WheelDimensions(rim_inside=-0.0675, rim_outside=0.0675)
 """Default wheel with its tape circle in the middle of the rim, as the half section has it."""
 
+SOURCE = "half section, another mesh"
 SIZES = (0.004, 0.002, 0.001)
 
 
@@ -31,32 +32,18 @@ def statics() -> CaseResult:
         low = float(np.linalg.eigvalsh(rest.flexibility)[0] / wheel.flexibility.max())
         share = 1 - hub_stiffness(wheel) / hub_stiffness(rest)
         rows.append((highest / 1000, len(modes.frequencies), 100 * share, low))
+    F = half.flexibility
+    apart = "planes 12 degrees apart"
     checks = (
-        Check(
-            "mean flexibility over the zone, whole section",
-            float(paired.mean()),
-            float(half.flexibility.mean()),
-            "m/N",
-            "half section, another mesh",
-            0.005,
-        ),
-        Check(
-            "flexibility of the middle node, whole section",
-            float(paired[middle, middle]),
-            float(half.flexibility[middle, middle]),
-            "m/N",
-            "half section, another mesh",
-            0.005,
+        *(
+            Check(f"{what}, whole section", float(own), float(other), "m/N", SOURCE, 0.005)
+            for what, own, other in (
+                ("mean flexibility over the zone", paired.mean(), F.mean()),
+                ("flexibility of the middle node", paired[middle, middle], F[middle, middle]),
+            )
         ),
         Check("hub to tread, 2 mm", stiff[1], stiff[2], "N/m", "the same at 1 mm", 0.01),
-        Check(
-            "hub to tread, planes 12 degrees apart",
-            stiff[1],
-            fine,
-            "N/m",
-            "the same, 3 degrees",
-            0.005,
-        ),
+        Check(f"hub to tread, {apart}", stiff[1], fine, "N/m", "the same, 3 degrees", 0.005),
         Check(
             "least eigenvalue of a residual flexibility over its largest entry",
             min(row[3] for row in rows),

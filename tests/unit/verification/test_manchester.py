@@ -64,8 +64,8 @@ def test_centred_wheels_are_mirror_images():
     left, right = manchester_rows((1,), side=0.4e-3)
     assert (left.wheel, right.wheel) == ("left", "right")
     assert right.y == pytest.approx(-left.y, rel=1e-9)
-    assert right.peak_pressure == pytest.approx(left.peak_pressure, rel=1e-9)
-    assert left.vertical_force == pytest.approx(10e3, rel=2e-4)
+    assert right.found.peak_pressure == pytest.approx(left.found.peak_pressure, rel=1e-9)
+    assert left.found.vertical_force == pytest.approx(10e3, rel=2e-4)
 
 
 def test_friction_of_a_yawed_wheel_is_lateral_and_saturated():
