@@ -22,21 +22,13 @@ def passing_amplitude(
 
     Parameters
     ----------
-    position : ndarray
-        (n,) X, increasing [m].
-    signal : ndarray
-        (n,).
+    position, signal : ndarray (n,)
+        X, increasing [m], and the signal there, in whose unit the amplitudes (harmonics,) are.
     wavelength : float
         [m].
-    harmonics : int
     fundamental : float, optional
         Period of the whole signal [m], a multiple of the wavelength; the wavelength itself when
         not given. Give the support spacing where that is longer: otherwise its ripple leaks.
-
-    Returns
-    -------
-    ndarray
-        (harmonics,) amplitudes, in the signal's unit.
 
     Raises
     ------

@@ -6,25 +6,12 @@ from contactstudy.plot.style import figure_style, save
 from contactstudy.study.kind import find_kind
 from contactstudy.study.results import StudyResults
 
-__all__ = ["write_figures"]
-
 
 def write_figures(results: StudyResults, out_dir: Path) -> list[Path]:
     """Draw all figures into out_dir/figures, each as PDF and as PNG.
 
-    Those of a companion study go into out_dir/<companion>/figures.
-
-    Parameters
-    ----------
-    results : StudyResults
-        A finished study; what it does not carry is left out.
-    out_dir : Path
-        Output directory of the study.
-
-    Returns
-    -------
-    list of Path
-        The files written.
+    What the study does not carry is left out. Figures of a companion study go into
+    out_dir/<companion>/figures. Returned are the files written.
     """
     folder = Path(out_dir) / "figures"
     written: list[Path] = []

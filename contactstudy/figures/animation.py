@@ -11,9 +11,10 @@ from matplotlib.animation import PillowWriter
 from matplotlib.figure import Figure
 
 from contactstudy.arrays import Array
+from contactstudy.figures.patch import whole_grid
 from contactstudy.figures.signals import position, values
 from contactstudy.files import writing
-from contactstudy.plot.style import BLACK, VERMILION, figure_style, new_figure
+from contactstudy.plot.style import BLACK, VERMILION, figure_style, map_axes, new_figure
 from contactstudy.plot.text import exact, label
 from contactstudy.study.results import StudyResults
 
@@ -61,13 +62,9 @@ def write_animations(results: StudyResults, out_dir: Path) -> list[Path]:
 
 def frames_of(run: xr.Dataset) -> PatchFrames:
     """PatchFrames of a run, both halves of a symmetric model."""
-    x, y = (np.unique(np.asarray(run[name].values)) for name in ("point_x", "point_y"))
     pressure = np.asarray(run["frame_pressure"].transpose("frame", "point").values)
-    grid = pressure.reshape(-1, len(x), len(y)) * 1e-6
-    if run["point_y"].attrs.get("symmetric", y[0] >= -1e-9):
-        y, grid = np.r_[-y[:0:-1], y], np.concatenate([grid[:, :, :0:-1], grid], axis=2)
-    at = np.asarray(run["frame_position"].values, dtype=float)
-    return PatchFrames(x * 1e3, y * 1e3, grid, at)
+    x, y, grid = whole_grid(run, pressure)
+    return PatchFrames(x, y, grid * 1e-6, np.asarray(run["frame_position"].values, dtype=float))
 
 
 def _animate(name: str, run: xr.Dataset, path: Path) -> None:
@@ -90,17 +87,13 @@ def _draw(name: str, run: xr.Dataset, frames: PatchFrames) -> tuple[Figure, Mapp
         vmax=max(float(frames.pressure.max()), 1.0), shading="nearest",
     )  # fmt: skip
     figure.colorbar(image, ax=patch, label="Pressure (MPa)")
-    patch.set_aspect("equal")
-    patch.grid(False)
-    patch.set_xlabel("Along the rail, from the wheel (mm)")
-    patch.set_ylabel("Across (mm)")
+    map_axes(patch, "Along the rail, from the wheel (mm)", "Across (mm)")
     x, force = position(run), values(run, "contact_force") * 1e-3
     on = (x >= frames.position[0]) & (x <= frames.position[-1])
     trace.plot(x[on], force[on], color=BLACK, lw=0.8)
     line = trace.axvline(frames.position[0], color=VERMILION, lw=1.2)
     trace.margins(x=0)
-    trace.set_xlabel("Position X of the wheel (m)")
-    trace.set_ylabel("Force (kN)")
+    trace.set(xlabel="Position X of the wheel (m)", ylabel="Force (kN)")
     title = patch.set_title(f"{label(name)}: X = {exact(frames.position[0], 6)} m")
     # the layout is found once, with the longest title, so that nothing jumps
     figure.draw_without_rendering()

@@ -3,7 +3,7 @@
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import FixedLocator, NullFormatter, NullLocator
+from matplotlib.ticker import FixedLocator, NullLocator
 
 from contactstudy.figures.signals import compared, fade_end, has_signal, speed, styles, values
 from contactstudy.irregularity.estimate import ThirdOctaves, third_octave_levels
@@ -78,33 +78,23 @@ def _draw(results: StudyResults, pairs: dict[str, tuple[ThirdOctaves, ThirdOctav
     )
     top.set_ylim(max(lowest, highest - SHOWN_RANGE) - 3, highest + 5)
     top.set_ylabel("Force level (dB re 1 N)")
-    below.set_ylabel("Difference (dB)")
-    below.set_xlabel("Third-octave band centre (Hz)")
-    _octave_ticks(below, first)
+    below.set(xlabel="Third-octave band centre (Hz)", ylabel="Difference (dB)", xscale="log")
+    v = speed(results.runs[str(results.reference)])
     second = top.secondary_xaxis("top")
-    _wavelength_ticks(second, first, speed(results.runs[str(results.reference)]))
+    second.set_xlabel("Wavelength (m)")
+    _ticks(below, first, [f"{f:g}" for f in first.nominal])
+    _ticks(second, first, [f"{v / f:.2g}" for f in first.centre])
     figure.align_ylabels()
     figure_legend(figure, top)
     return figure
 
 
-def _octave_ticks(axes: Axes, levels: ThirdOctaves) -> None:
-    """Every third band labelled with its nominal centre."""
-    axes.set_xscale("log")
+def _ticks(axes: Axes, levels: ThirdOctaves, texts: list[str]) -> None:
+    """Every third band labelled with its text."""
     chosen = slice((len(levels.centre) - 1) % 3, None, 3)
     axes.xaxis.set_major_locator(FixedLocator(list(levels.centre[chosen])))
     axes.xaxis.set_minor_locator(NullLocator())
-    axes.xaxis.set_minor_formatter(NullFormatter())
-    axes.set_xticklabels([f"{f:g}" for f in levels.nominal[chosen]])
-
-
-def _wavelength_ticks(axes: Axes, levels: ThirdOctaves, v: float) -> None:
-    """Wavelengths at the same bands, for the speed `v` in m/s."""
-    chosen = slice((len(levels.centre) - 1) % 3, None, 3)
-    axes.xaxis.set_major_locator(FixedLocator(list(levels.centre[chosen])))
-    axes.xaxis.set_minor_locator(NullLocator())
-    axes.set_xticklabels([f"{v / f:.2g}" for f in levels.centre[chosen]])
-    axes.set_xlabel("Wavelength (m)")
+    axes.set_xticklabels(texts[chosen])
 
 
 def _caption(results: StudyResults, pairs: dict[str, tuple[ThirdOctaves, ThirdOctaves]]) -> str:

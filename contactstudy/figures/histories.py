@@ -1,5 +1,7 @@
 """Signals of all runs over each other, and below their differences from the reference."""
 
+from functools import partial
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -28,7 +30,7 @@ def drawings(results: StudyResults) -> list[Drawing]:
     if results.reference is None or len(results.runs) < 2:
         return []
     return [
-        Drawing(s.name, _caption(results, s), lambda s=s: _draw(results, s))  # type: ignore[misc]
+        Drawing(s.name, _caption(results, s), partial(_draw, results, s))
         for s in SIGNALS
         if all(has_signal(run, s.name) for run in results.runs.values())
     ]
@@ -105,15 +107,10 @@ def zoom_window(results: StudyResults, signal: Signal, start: float) -> tuple[fl
 
 
 def _limit_to_view(axes: Axes, low: float, high: float) -> None:
-    seen = [
-        np.asarray(line.get_ydata())[
-            (np.asarray(line.get_xdata()) >= low) & (np.asarray(line.get_xdata()) <= high)
-        ]
-        for line in axes.lines
-    ]
-    seen = [y for y in seen if y.size]
-    if seen:
-        bottom, top = min(y.min() for y in seen), max(y.max() for y in seen)
+    x, y = (np.concatenate(v) for v in zip(*(line.get_data() for line in axes.lines), strict=True))
+    seen = y[(x >= low) & (x <= high)]
+    if seen.size:
+        bottom, top = seen.min(), seen.max()
         margin = 0.06 * (top - bottom) or 1.0
         axes.set_ylim(bottom - margin, top + margin)
 

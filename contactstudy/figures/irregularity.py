@@ -7,12 +7,7 @@ from matplotlib.ticker import FuncFormatter
 from numpy.typing import ArrayLike
 
 from contactstudy.figures.signals import position
-from contactstudy.irregularity.shown import (
-    IrregularityInfo,
-    Level,
-    SpectrumCurve,
-    from_dataset,
-)
+from contactstudy.irregularity.shown import IrregularityInfo, Level, SpectrumCurve, from_dataset
 from contactstudy.plot.drawing import Drawing
 from contactstudy.plot.style import BLACK, BLUE, GREEN, SHADE, VERMILION, new_figure
 from contactstudy.plot.text import capital, exact, number
@@ -28,14 +23,9 @@ def drawings(results: StudyResults) -> list[Drawing]:
             Drawing("irregularity_spectrum", _spectrum_caption(info), lambda: _spectra(info))
         )
     if info.profile is not None and np.any(info.profile.level):
-        profile = info.profile
-        made.append(
-            Drawing(
-                "irregularity_profile",
-                _profile_caption(profile, _travelled(results)),
-                lambda: _profile(profile, _travelled(results)),
-            )
-        )
+        profile, span = info.profile, _travelled(results)
+        caption = _profile_caption(profile, span)
+        made.append(Drawing("irregularity_profile", caption, lambda: _profile(profile, span)))
     return made
 
 
@@ -112,9 +102,7 @@ def _spectra(info: IrregularityInfo) -> Figure:
         _line(axes, info.estimate, BLUE, "-", 0.8)
     if info.spectrum is not None:
         _line(axes, info.spectrum, VERMILION if info.estimate is None else BLACK, "--", 1.4)
-    axes.set_xscale("log")
-    axes.set_yscale("log")
-    axes.set_xlabel("Angular wavenumber ω (rad/m)")
+    axes.set(xscale="log", yscale="log", xlabel="Angular wavenumber ω (rad/m)")
     axes.set_ylabel("PSD $G_{rr}$, two-sided (m²/(rad/m))")
     _limits(axes, info)
     second = axes.secondary_xaxis("top", functions=(_reciprocal, _reciprocal))
@@ -180,7 +168,6 @@ def _profile(profile: Level, travelled: tuple[float, float] | None) -> Figure:
         axes.axvspan(*travelled, color=SHADE, lw=0, zorder=0)
     axes.plot(profile.position, profile.level * 1e3, color=BLUE, lw=0.8)
     axes.axhline(0.0, color=BLACK, lw=0.4)
-    axes.set_xlabel("Position X along the rail (m)")
-    axes.set_ylabel("Irregularity $r_v$ (mm)")
+    axes.set(xlabel="Position X along the rail (m)", ylabel="Irregularity $r_v$ (mm)")
     axes.margins(x=0)
     return figure

@@ -50,8 +50,7 @@ def _force(results: StudyResults, found: dict[str, Passing]) -> Figure:
         axes.plot(x[keep], force[keep], label=label(name), **styles(results)[name].line)
     for support in np.arange(low, high + bay / 2, bay):
         axes.axvline(support, color=GREY, lw=0.6, ls=":")
-    axes.set_xlabel("Position X of the wheel (m), supports dotted")
-    axes.set_ylabel("Contact force (kN)")
+    axes.set(xlabel="Position X of the wheel (m), supports dotted", ylabel="Contact force (kN)")
     axes.margins(x=0)
     figure_legend(figure, axes)
     return figure

@@ -55,11 +55,7 @@ def passing(run: xr.Dataset, bay: float) -> Passing | None:
 
     Taken over the later half of the run, as many whole bays as it holds: the start from rest
     has died out there.
-
-    Returns
-    -------
-    Passing or None
-        None where the run is shorter than four bays.
+    None where the run is shorter than four bays.
     """
     x, force = position(run), values(run, "contact_force")
     bays = int((x[-1] - x[0]) / bay / 2 + 1e-9)

@@ -14,7 +14,7 @@ from contactstudy.arrays import Array
 from contactstudy.figures.hertz_ellipse import HertzPatch, hertz_patch
 from contactstudy.figures.signals import position, values
 from contactstudy.plot.drawing import Drawing
-from contactstudy.plot.style import BLACK, VERMILION, new_figure
+from contactstudy.plot.style import BLACK, VERMILION, map_axes, new_figure
 from contactstudy.plot.text import exact, label, number
 from contactstudy.study.results import StudyResults
 
@@ -47,22 +47,40 @@ class ShownPatch:
 
 def drawings(results: StudyResults) -> list[Drawing]:
     """Pressure map of each run that has stored one."""
-    made = []
-    for name, run in results.runs.items():
-        several = sum("pressure" in r for r in results.runs.values()) > 1
-        suffix = f"_{name}" if several else ""
-        if "pressure" in run and {"instant", "point"} <= set(run["pressure"].dims):
-            patch = patch_of(run)
-            if patch is not None:
-                hertz = hertz_patch(results, patch.force)
-                made.append(
-                    Drawing(
-                        f"patch_pressure{suffix}",
-                        _map_caption(name, patch, hertz),
-                        lambda patch=patch, hertz=hertz: _map(patch, hertz),  # type: ignore[misc]
-                    )
-                )
-    return made
+
+    def made(name: str, suffix: str, patch: ShownPatch) -> Drawing:
+        hertz = hertz_patch(results, patch.force)
+        caption = _map_caption(name, patch, hertz)
+        return Drawing(f"patch_pressure{suffix}", caption, lambda: _map(patch, hertz))
+
+    several = sum("pressure" in run for run in results.runs.values()) > 1
+    return [
+        made(name, f"_{name}" if several else "", patch)
+        for name, patch in patches_of(results).items()
+    ]
+
+
+def patches_of(results: StudyResults, *fields: str) -> dict[str, ShownPatch]:
+    """Patch of each run that has stored its pressure and the fields named."""
+    found = {
+        name: patch_of(run)
+        for name, run in results.runs.items()
+        if {"pressure", *fields} <= set(run.variables)
+        and {"instant", "point"} <= set(run["pressure"].dims)
+    }
+    return {name: patch for name, patch in found.items() if patch is not None}
+
+
+def whole_grid(run: xr.Dataset, field: Array) -> tuple[Array, Array, Array]:
+    """Grid lines (n,), (m,) in mm and a field (k, points) on them, (k, n, m).
+
+    Both halves of a symmetric model.
+    """
+    x, y = (np.unique(np.asarray(run[name].values)) for name in ("point_x", "point_y"))
+    grid = field.reshape(-1, len(x), len(y))
+    if run["point_y"].attrs.get("symmetric", y[0] >= -1e-9):
+        y, grid = np.r_[-y[:0:-1], y], np.concatenate([grid[:, :, :0:-1], grid], axis=2)
+    return x * 1e3, y * 1e3, grid
 
 
 def patch_of(run: xr.Dataset) -> ShownPatch | None:
@@ -81,11 +99,7 @@ def patch_of(run: xr.Dataset) -> ShownPatch | None:
         x = x - at[k]
     if y.min() >= -1e-9:  # half model: the other half is its mirror image
         inner = y > 1e-9
-        x, y, p = (
-            np.concatenate([x, x[inner]]),
-            np.concatenate([y, -y[inner]]),
-            np.concatenate([p, p[inner]]),
-        )
+        x, y, p = np.r_[x, x[inner]], np.r_[y, -y[inner]], np.r_[p, p[inner]]
     return ShownPatch(x, y, p, float(at[k]), float(force[k]), k)
 
 
@@ -112,10 +126,7 @@ def _map(patch: ShownPatch, hertz: HertzPatch | None) -> Figure:
         left.legend(handles=[proxy], loc="upper right")
     left.set_xlim(-half, half)
     left.set_ylim(middle - half, middle + half)
-    left.set_aspect("equal")
-    left.grid(False)
-    left.set_xlabel("Along the rail (mm)")
-    left.set_ylabel("Across the rail (mm)")
+    map_axes(left, "Along the rail (mm)", "Across the rail (mm)")
     figure.colorbar(image, ax=left, label="Pressure (MPa)", shrink=0.9)
     _cuts(right, x, y - y[np.argmax(p)] if hertz is None else y, p, hertz, half)
     return figure
@@ -155,24 +166,20 @@ def _cuts(axes: Axes, x: Array, y: Array, p: Array, hertz: HertzPatch | None, ha
             axes.plot(s, curve, color=VERMILION, ls=dashes, lw=1.0, label=text)
     axes.set_xlim(-half, half)
     axes.set_ylim(bottom=0)
-    top = axes.get_ylim()[1]
-    axes.set_ylim(0, 1.45 * top)
-    axes.set_xlabel(f"Distance from the {'peak' if hertz is None else 'centre'} (mm)")
-    axes.set_ylabel("Pressure (MPa)")
+    axes.set_ylim(0, 1.45 * axes.get_ylim()[1])
+    where = "peak" if hertz is None else "centre"
+    axes.set(xlabel=f"Distance from the {where} (mm)", ylabel="Pressure (MPa)")
     axes.legend(loc="upper center", ncols=2, columnspacing=1.0, handlelength=2.0)
-
-
-def _middle(hertz: HertzPatch | None) -> str:
-    """Where the cuts cross: a patch without Hertz's ellipse may lie off the crown."""
-    return "node of highest pressure" if hertz is None else "centre"
 
 
 def _map_caption(name: str, patch: ShownPatch, hertz: HertzPatch | None) -> str:
     peak = patch.pressure.max()
+    # where the cuts cross: a patch without Hertz's ellipse may lie off the crown
+    middle = "node of highest pressure" if hertz is None else "centre"
     text = (
         f"Contact pressure of the run {label(name)} at X = {exact(patch.position)} m, where the "
         f"force is {number(patch.force * 1e-3)} kN: map (left) and cuts through the "
-        f"{_middle(hertz)} (right). The highest nodal pressure is {number(peak * 1e-6)} MPa"
+        f"{middle} (right). The highest nodal pressure is {number(peak * 1e-6)} MPa"
     )
     if hertz is None:
         return text + "."

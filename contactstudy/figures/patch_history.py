@@ -28,13 +28,8 @@ def _draw(results: StudyResults) -> Figure:
         for run_name, style in styles(results).items():
             run = results.runs[run_name]
             if has_signal(run, name):
-                x = position(run)
-                ax.plot(
-                    x,
-                    values(run, name) * scale,
-                    label=label(run_name),
-                    **style.line | {"linewidth": 0.5},
-                )
+                x, line = position(run), style.line | {"linewidth": 0.5}
+                ax.plot(x, values(run, name) * scale, label=label(run_name), **line)
                 if start > x[0]:
                     ax.axvspan(x[0], start, color=SHADE, lw=0, zorder=0)
         ax.set_ylabel(text)

@@ -4,15 +4,14 @@ from dataclasses import dataclass
 
 import numpy as np
 import xarray as xr
-from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch as Swatch
 
 from contactstudy.arrays import Array
-from contactstudy.figures.patch import ShownPatch, patch_of
+from contactstudy.figures.patch import ShownPatch, patches_of, whole_grid
 from contactstudy.plot.drawing import Drawing
-from contactstudy.plot.style import BLACK, BLUE, SHADE, SKY, new_figure
+from contactstudy.plot.style import BLACK, BLUE, SHADE, SKY, map_axes, new_figure
 from contactstudy.plot.text import exact, label, number
 from contactstudy.study.results import StudyResults
 
@@ -42,35 +41,22 @@ class Status:
 
 def drawings(results: StudyResults) -> list[Drawing]:
     """Contact status of each run that has stored it."""
-    found = {
-        name: patch
-        for name, run in results.runs.items()
-        if "pressure" in run and "contact_status" in run and (patch := patch_of(run)) is not None
-    }
-    made = []
-    for name, patch in found.items():
+    found = patches_of(results, "contact_status")
+
+    def made(name: str, patch: ShownPatch) -> Drawing:
         status = status_of(results.runs[name], patch.instant)
         suffix = f"_{name}" if len(found) > 1 else ""
-        made.append(
-            Drawing(
-                f"patch_status{suffix}",
-                _caption(name, results.runs[name], patch, status),
-                lambda status=status: _draw(status),  # type: ignore[misc]
-            )
-        )
-    return made
+        caption = _caption(name, results.runs[name], patch, status)
+        return Drawing(f"patch_status{suffix}", caption, lambda: _draw(status))
+
+    return [made(name, patch) for name, patch in found.items()]
 
 
 def status_of(run: xr.Dataset, instant: int) -> Status:
     """Status and gap at one of a run's instants, both halves of a symmetric model."""
-    x, y = (np.unique(np.asarray(run[name].values)) for name in ("point_x", "point_y"))
-    mirrored = bool(run["point_y"].attrs.get("symmetric", y[0] >= -1e-9))
-    fields = []
-    for name in ("contact_status", "gap"):
-        grid = np.asarray(run[name].isel(instant=instant).values).reshape(len(x), len(y))
-        fields.append(np.hstack([grid[:, :0:-1], grid]) if mirrored else grid)
-    across = np.r_[-y[:0:-1], y] if mirrored else y
-    return Status(x * 1e3, across * 1e3, fields[0], fields[1] * 1e6)
+    fields = [run[name].isel(instant=instant).values for name in ("contact_status", "gap")]
+    x, y, (status, gap) = whole_grid(run, np.array(fields))
+    return Status(x, y, status, gap * 1e6)
 
 
 def _draw(status: Status) -> Figure:
@@ -90,19 +76,13 @@ def _draw(status: Status) -> Figure:
     )
     right.clabel(lines, fmt="%g µm", fontsize=7)
     right.contourf(status.x, status.y, status.status.T, levels=[0.5, 2.0], colors=[SKY])
-    left.set_ylabel("Across the rail (mm)")
     for ax, text in ((left, "Contact status of the nodes"), (right, "Gap around the patch")):
-        _frame(ax, status)
+        ax.set_xlim(status.x[0], status.x[-1])
+        ax.set_ylim(status.y[0], status.y[-1])
+        map_axes(ax, "Along the rail (mm)")
         ax.set_title(text)
+    left.set_ylabel("Across the rail (mm)")
     return figure
-
-
-def _frame(ax: Axes, status: Status) -> None:
-    ax.set_xlim(status.x[0], status.x[-1])
-    ax.set_ylim(status.y[0], status.y[-1])
-    ax.set_aspect("equal")
-    ax.grid(False)
-    ax.set_xlabel("Along the rail (mm)")
 
 
 def _caption(name: str, run: xr.Dataset, patch: ShownPatch, status: Status) -> str:

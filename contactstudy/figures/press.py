@@ -1,5 +1,7 @@
 """Static press of the wheel on the rail: force over approach, with Hertz's beside it."""
 
+from functools import partial
+
 import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
@@ -17,13 +19,8 @@ def drawings(results: StudyResults) -> list[Drawing]:
     for name, run in results.runs.items():
         if "press_force" in run and "press_approach" in run:
             force, approach, hertz = curves(results, run)
-            return [
-                Drawing(
-                    "static_press",
-                    _caption(name, force, approach, hertz),
-                    lambda f=force, a=approach, h=hertz: _draw(f, a, h),  # type: ignore[misc]
-                )
-            ]
+            caption = _caption(name, force, approach, hertz)
+            return [Drawing("static_press", caption, partial(_draw, force, approach, hertz))]
     return []
 
 
@@ -49,8 +46,7 @@ def _draw(force: Array, approach: Array, hertz: Array | None) -> Figure:
     if hertz is not None:
         text = "Hertz, contact alone"
         axes.plot(hertz * 1e6, force * 1e-3, color=VERMILION, ls="--", label=text)
-    axes.set_xlabel("Approach (µm)")
-    axes.set_ylabel("Force (kN)")
+    axes.set(xlabel="Approach (µm)", ylabel="Force (kN)")
     axes.legend(loc="upper left")
     return figure
 

@@ -1,6 +1,7 @@
 """Rail and wheel in section, deformed: drawn where a run carries the meshes of both."""
 
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 import xarray as xr
@@ -11,7 +12,7 @@ from matplotlib.figure import Figure
 from contactstudy.arrays import Array
 from contactstudy.figures.signals import position, values
 from contactstudy.plot.drawing import Drawing
-from contactstudy.plot.style import BLACK, GREY, new_figure
+from contactstudy.plot.style import BLACK, GREY, map_axes, new_figure
 from contactstudy.plot.text import exact, label, number
 from contactstudy.study.results import StudyResults
 
@@ -22,13 +23,9 @@ _NEAR = 20.0  # mm, half width of the enlarged part
 
 @dataclass(frozen=True)
 class ShownSection:
-    """One body in the plane across the rail, in m, y lateral and z up.
+    """Nodes (n, 2), quads (m, 4) and displacements (n, 2) of one body across the rail.
 
-    Attributes
-    ----------
-    nodes : (n, 2) array
-    quads : (m, 4) array of int
-    displacement : (n, 2) array
+    In m, y lateral and z up.
     """
 
     nodes: Array
@@ -47,15 +44,8 @@ def drawings(results: StudyResults) -> list[Drawing]:
         wheel = replace(wheel, displacement=wheel.displacement - np.array([0.0, level]))
         factor = magnification(rail, wheel)
         at = contact_place(run, rail)
-        return [
-            Drawing(
-                "deformed_section",
-                _caption(name, run, rail, wheel, factor, level),
-                lambda rail=rail, wheel=wheel, factor=factor, at=at: _draw(  # type: ignore[misc]
-                    rail, wheel, factor, at
-                ),
-            )
-        ]
+        caption = _caption(name, run, rail, wheel, factor, level)
+        return [Drawing("deformed_section", caption, partial(_draw, rail, wheel, factor, at))]
     return []
 
 
@@ -142,9 +132,7 @@ def _draw(rail: ShownSection, wheel: ShownSection, factor: float, at: Array) -> 
     whole.set_title(f"Displacements × {exact(factor)}")
     near.set_title("Near the contact, true to scale")
     for axes in (whole, near):
-        axes.set_aspect("equal")
-        axes.set_xlabel("Across the rail y (mm)")
-        axes.grid(False)
+        map_axes(axes, "Across the rail y (mm)")
     whole.set_ylabel("Height z above the running surface (mm)")
     return figure
 

@@ -13,20 +13,9 @@ from contactstudy.study.results import StudyResults
 
 @dataclass(frozen=True)
 class Signal:
-    """How a signal of the results is shown.
+    """How the variable `name` of the dataset is shown: scale * SI value, in `unit`.
 
-    Attributes
-    ----------
-    name : str
-        Variable of the dataset.
-    label : str
-        What stands in captions and tables.
-    axis : str
-        What stands on the axis.
-    unit : str
-        Unit shown.
-    scale : float
-        Shown value = scale * SI value.
+    `label` stands in captions and tables, `axis` on the axis.
     """
 
     name: str

@@ -1,5 +1,6 @@
 """Stress below the contact patch in the planes along and across the rail."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,7 +12,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 
 from contactstudy.arrays import Array
-from contactstudy.figures.patch import ShownPatch, patch_of
+from contactstudy.figures.patch import ShownPatch, patches_of
 from contactstudy.halfspace.pressure_field import SurfacePressure
 from contactstudy.halfspace.subsurface import SHALLOWEST, half_space_stress
 from contactstudy.plot.drawing import Drawing
@@ -36,8 +37,6 @@ class Below:
 
     Attributes
     ----------
-    load : SurfacePressure
-    poisson_ratio : float
     maxima : dict of str to tuple of float
         Invariant to (value in Pa, x, y, depth in m), as in the dataset.
     """
@@ -54,23 +53,14 @@ class Below:
 
 def drawings(results: StudyResults) -> list[Drawing]:
     """Stresses below the patch of each run that has stored its pressure and their maxima."""
-    made = []
-    found = {
-        name: patch
-        for name, run in results.runs.items()
-        if "pressure" in run and "maximum_shear" in run and (patch := patch_of(run)) is not None
-    }
-    for name, patch in found.items():
+    found = patches_of(results, "maximum_shear")
+
+    def made(name: str, patch: ShownPatch) -> Drawing:
         below = below_of(results.runs[name], patch)
         suffix = f"_{name}" if len(found) > 1 else ""
-        made.append(
-            Drawing(
-                f"stress_below{suffix}",
-                _caption(name, patch, below),
-                lambda below=below: _draw(below),  # type: ignore[misc]
-            )
-        )
-    return made
+        return Drawing(f"stress_below{suffix}", _caption(name, patch, below), lambda: _draw(below))
+
+    return [made(name, patch) for name, patch in found.items()]
 
 
 def below_of(run: xr.Dataset, patch: ShownPatch) -> Below:
@@ -102,10 +92,9 @@ def _draw(below: Below) -> Figure:
         figure.colorbar(image, ax=list(row), label=f"{title} (MPa)")
     for ax, text in zip(axes[0], (_where("y", y0), _where("x", x0)), strict=True):
         ax.set_title(text)
-    axes[1, 0].set_xlabel("Along the rail x (mm)")
-    axes[1, 1].set_xlabel("Across the rail y (mm)")
-    for ax in axes[:, 0]:
-        ax.set_ylabel("Depth (mm)")
+    axes[0, 0].set(ylabel="Depth (mm)")
+    axes[1, 0].set(xlabel="Along the rail x (mm)", ylabel="Depth (mm)")
+    axes[1, 1].set(xlabel="Across the rail y (mm)")
     axes[0, 0].invert_yaxis()
     return figure
 
@@ -115,10 +104,7 @@ def _where(axis: str, at: float) -> str:
 
 
 def _plane(
-    below: Below,
-    along: bool,
-    at: tuple[float, float],
-    invariant: object,
+    below: Below, along: bool, at: tuple[float, float], invariant: Callable[[Array], Array]
 ) -> tuple[Array, Array, Array]:
     """Invariant in MPa on a grid of a vertical plane through `at`: (n,), (m,) in mm, (m, n)."""
     centre = at[0] if along else at[1]
@@ -130,7 +116,6 @@ def _plane(
     stress = half_space_stress(
         below.load, np.stack([*points, Z.ravel()], axis=1), below.poisson_ratio
     )
-    assert callable(invariant)
     return s * 1e3, z * 1e3, invariant(stress).reshape(S.shape) * 1e-6
 
 

@@ -3,12 +3,7 @@
 from matplotlib.figure import Figure
 
 from contactstudy.plot.curves import Plot
-from contactstudy.plot.style import (
-    REFERENCE_STYLE,
-    figure_legend,
-    new_figure,
-    run_styles,
-)
+from contactstudy.plot.style import REFERENCE_STYLE, figure_legend, new_figure, run_styles
 
 
 def draw(plot: Plot) -> Figure:
@@ -25,9 +20,6 @@ def draw(plot: Plot) -> Figure:
         if c.style in ("points", "both"):
             line |= {"marker": style.marker, "markersize": 4, "markerfacecolor": "none"}
         axes.plot(c.x, c.y, **line)
-    axes.set_xscale(plot.x_scale)
-    axes.set_yscale(plot.y_scale)
-    axes.set_xlabel(plot.x_label)
-    axes.set_ylabel(plot.y_label)
+    axes.set(xscale=plot.x_scale, yscale=plot.y_scale, xlabel=plot.x_label, ylabel=plot.y_label)
     figure_legend(figure, axes)
     return figure

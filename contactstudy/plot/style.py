@@ -73,18 +73,9 @@ _RC: Any = {
 
 @dataclass(frozen=True)
 class LineStyle:
-    """How one run is drawn, the same in every figure.
+    """How one run is drawn, the same in every figure: line, points and bars, width in points.
 
-    Parameters
-    ----------
-    color : str
-        Colour, hexadecimal.
-    linestyle : str or tuple
-        Dash pattern as matplotlib takes it; tells runs apart without colour.
-    marker, hatch : str
-        The same for points and for bars.
-    width : float
-        Line width in points.
+    Dash pattern, marker and hatch, as matplotlib takes them, tell runs apart without colour.
     """
 
     color: str
@@ -103,15 +94,7 @@ REFERENCE_STYLE = LineStyle(BLACK, "-", "o", "", 1.4)
 
 
 def run_styles(names: list[str], reference: str | None) -> dict[str, LineStyle]:
-    """Line styles of the runs by name: the reference black and solid, the others in turn.
-
-    Parameters
-    ----------
-    names : list of str
-        Run names in the order of the study.
-    reference : str or None
-        Name of the run that the others are compared with.
-    """
+    """Line styles of the runs by name: the reference black and solid, the others in turn."""
     styles: dict[str, LineStyle] = {}
     others = 0
     for name in names:
@@ -165,6 +148,12 @@ def save(figure: Figure, folder: Path, name: str) -> list[Path]:
         figure.set_dpi(PNG_DPI)
         FigureCanvasAgg(figure).print_png(path, metadata={"Software": None})
     return [pdf, png]
+
+
+def map_axes(axes: Axes, x_label: str, y_label: str = "") -> None:
+    """Axes of a map or section: equal scales, no grid."""
+    axes.set(aspect="equal", xlabel=x_label, ylabel=y_label)
+    axes.grid(False)
 
 
 def figure_legend(figure: Figure, axes: Axes) -> None:
