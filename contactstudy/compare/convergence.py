@@ -1,4 +1,4 @@
-"""Observed order of accuracy, with the limit known or not.
+"""Observed order of accuracy, with the limit known or not, and the grid convergence index.
 
 Three values ``f1, f2, f3`` of the same quantity on grids (or time steps) of size
 ``h1 < h2 < h3`` with ratios ``r21 = h2/h1`` and ``r32 = h3/h2`` give the observed order p from
@@ -10,10 +10,31 @@ Sources: Roache (1994), J. Fluids Eng. 116:405; Celik et al. (2008), J. Fluids E
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
 from contactstudy.exceptions import InputError, NumericalError
+
+
+@dataclass(frozen=True)
+class GridConvergence:
+    """Outcome of three refinements.
+
+    Attributes
+    ----------
+    order : float
+        Observed order p.
+    extrapolated : float
+        Value for h -> 0 from the two finest grids (Richardson), in the values' unit.
+    index : float
+        Grid convergence index of the finest grid, relative to its value: a band of about
+        95 % for the discretisation error.
+    """
+
+    order: float
+    extrapolated: float
+    index: float
 
 
 def observed_order(values: Sequence[float], sizes: Sequence[float]) -> float:
@@ -68,3 +89,27 @@ def fitted_order(sizes: Sequence[float], errors: Sequence[float]) -> float:
     kept = [(h, e) for h, e in zip(sizes, errors, strict=True) if e > 0.0]
     h, e = np.log(np.array(kept)).T
     return float(np.polyfit(h, e, 1)[0])
+
+
+def grid_convergence(
+    values: Sequence[float], sizes: Sequence[float], safety: float = 1.25
+) -> GridConvergence:
+    """Order, extrapolated value and grid convergence index of three values, finest first.
+
+    With ``r = h2/h1``::
+
+        f_0 = (r^p f1 - f2) / (r^p - 1)
+        GCI = safety * |(f1 - f2) / f1| / (r^p - 1)
+
+    Parameters
+    ----------
+    values, sizes : 3 floats each
+        As in `observed_order`.
+    safety : float
+        1.25 for three grids (Roache), 3 for two.
+    """
+    p = observed_order(values, sizes)
+    gain = (sizes[1] / sizes[0]) ** p
+    extrapolated = (gain * values[0] - values[1]) / (gain - 1.0)
+    index = safety * abs((values[0] - values[1]) / values[0]) / (gain - 1.0)
+    return GridConvergence(p, extrapolated, index)
