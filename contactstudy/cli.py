@@ -215,13 +215,16 @@ def keys() -> None:
 def cache(
     *, clear: Annotated[bool, Parameter(negative="", help="Remove all of them.")] = False
 ) -> None:
-    """Say where condensed bodies are kept, how many, and how large they are."""
-    from contactstudy.solids.cache import cache_store
+    """Say where condensed bodies, and runs from Python, are kept, how many, and how large."""
+    from contactstudy.solids.cache import cache_directory, cache_store
+    from contactstudy.store import Store
+    from contactstudy.study.plan import RUNS
 
-    store = cache_store()
-    if clear:
-        store.clear()
-    print(store.summary())
+    runs = Store(cache_directory() / RUNS)
+    for store in (cache_store(), runs) if runs.folder.is_dir() else (cache_store(),):
+        if clear:
+            store.clear()
+        print(store.summary())
 
 
 def _run(study: Study, out: Path, jobs: int) -> None:

@@ -44,10 +44,7 @@ def run_study(
     results = _computed(plan, jobs, reporter)
     with reporter.stage("writing the results"):
         written = _write(results, out_dir)
-    with reporter.stage("drawing the figures"):
-        written += write_figures(results, out_dir)
-    with reporter.stage("typesetting the report"):
-        written.append(write_report(results, out_dir))
+    written += render(results, out_dir, reporter)
     sums = {p.relative_to(out_dir).as_posix(): file_digest(p) for p in written}
     Store(out_dir / RUNS).save(FINISHED, plan.key(), sums)
     return results
@@ -59,6 +56,14 @@ def compute_study(
     """As `run_study`, but only the finished runs are kept, in ``folder/runs``."""
     reporter = reporter or Quiet()
     return _computed(_planned(study, folder, reporter), jobs, reporter)
+
+
+def render(results: StudyResults, out_dir: Path, reporter: Reporter) -> list[Path]:
+    """Draw the figures of a study and its companions, and typeset the report."""
+    with reporter.stage("drawing the figures"):
+        written = write_figures(results, out_dir)
+    with reporter.stage("typesetting the report"):
+        return [*written, write_report(results, out_dir)]
 
 
 def _planned(study: Study, folder: Path, reporter: Reporter) -> Plan:

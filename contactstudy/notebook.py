@@ -9,6 +9,7 @@ from typing import Any
 from rich.console import Console
 
 from contactstudy.driver import compute_study, run_study
+from contactstudy.exceptions import InputError
 from contactstudy.reporter import Quiet
 from contactstudy.solids.cache import cache_directory
 from contactstudy.study.kind import Study
@@ -99,5 +100,9 @@ def _study(study: str | Path | Study, values: Mapping[str, Any] | None) -> Study
         made: Study = load(study, values)
         return made
     if values:
-        raise TypeError("values go with a study file; use dataclasses.replace on a study")
+        raise InputError("values go with a study file; use dataclasses.replace on a study")
+    if not hasattr(study, "config"):
+        raise InputError(
+            f"study = {study!r}: must be a file, the name of a shipped study or a Study"
+        )
     return study

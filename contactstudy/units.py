@@ -47,7 +47,10 @@ def to_si(value: Any, unit: str) -> float:
         number, text = _split(value, example)
         result = _short(number * _factor(text, unit)) if text else number
     else:
-        result = float(value)
+        try:
+            result = float(value)
+        except OverflowError:
+            result = math.inf
     if not math.isfinite(result):
         raise UnitError(f"must be finite ({unit})" if unit else "must be finite")
     return result

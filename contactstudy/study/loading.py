@@ -15,7 +15,9 @@ from contactstudy.study.overrides import Overrides
 from contactstudy.validation import complaint, did_you_mean, raise_if
 
 # of a study's results, beside which those of its companions lie
-_FOLDERS = ("runs", "figures", "fields")
+_TAKEN = (
+    "runs", "figures", "fields", "result.nc", "metrics.json", "report.pdf", "patches.csv",
+)  # fmt: skip
 
 
 def shipped_studies() -> dict[str, Path]:
@@ -88,7 +90,7 @@ def load_companions(study: Any) -> list[Any]:
         Listing every problem of every companion.
     """
     found, problems = [], []
-    taken = dict.fromkeys(_FOLDERS, "a folder that every study has")
+    taken = dict.fromkeys(_TAKEN, "a file or folder of every study")
     taken[study.name] = "the study that it accompanies"
     for name in study.companions:
         try:

@@ -20,6 +20,7 @@ from rich.progress import (
     TimeRemainingColumn,
 )
 from rich.table import Table
+from rich.text import Text
 
 from contactstudy.reporter import Reporter
 from contactstudy.study.kind import Study, find_kind
@@ -110,7 +111,7 @@ def print_check(study: Study, console: Console, reporter: Reporter) -> None:
     studies = (study, *load_companions(study))
     inputs = [find_kind(one.kind).read_inputs(one) for one in studies]
     needs = find_kind(study.kind).check(study, studies[1:], reporter)
-    console.print(f"[bold]{study.title}[/bold] ({study.name})")
+    console.print(Text(study.title, "bold"), f"({study.name})")
     if study.description:
         console.print(" ".join(study.description.split()), markup=False)
     for warning in inputs[0].warnings:

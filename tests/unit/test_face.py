@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 import contactstudy as cs
+from contactstudy import cli
 from contactstudy.exceptions import InputError
 
 SNIPPETS = re.findall(
@@ -84,3 +85,28 @@ def test_a_track_of_the_wrong_type_names_the_right_one():
     contact = cs.SurfaceContact(cs.meshed_wheel())
     with pytest.raises(InputError, match=r"give a SolidTrack, such as contactstudy.meshed_track"):
         cs.surface_contact(cs.Track(), contact, cs.wheel_column(), cs.SmoothRail(), cs.Journey())
+
+
+def test_what_is_no_study_is_refused():
+    for wrong in (None, 3, cs.Track()):
+        with pytest.raises(InputError, match="must be a file, the name of a shipped study or a S"):
+            cs.run(wrong)
+
+
+def test_cache_counts_and_clears_runs_from_python(tmp_path, monkeypatch, capsys):
+    monkeypatch.setenv("CONTACTSTUDY_CACHE", str(tmp_path / "cache"))
+    study = tmp_path / "mine.toml"
+    study.write_text('title = "[bold]x[/nope]"\n[runs.point]\nsolver = "point"\n', "utf-8")
+    cs.run(study, SHORT)
+    assert cli.main(["cache"]) == 0
+    assert len(list((tmp_path / "cache" / "runs").iterdir())) == 2
+    assert f"{tmp_path / 'cache' / 'runs'}" in capsys.readouterr().out.replace("\n", "")
+    assert cli.main(["cache", "--clear"]) == 0
+    assert list((tmp_path / "cache" / "runs").iterdir()) == []
+    assert cli.main(["check", str(study)]) == 0
+    assert "[bold]x[/nope] (mine)" in capsys.readouterr().out
+
+
+def test_a_number_beyond_all_floats_is_refused():
+    with pytest.raises(InputError, match="must be finite"):
+        cs.Track(length=10**400)

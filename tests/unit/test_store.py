@@ -186,7 +186,7 @@ def test_imports_are_found_as_python_finds_them():
 @pytest.fixture
 def keys(tmp_path):
     """Keys of a run, of a body and of all outputs as a copy of the program makes them."""
-    top = Path(code.__file__).parents[1]
+    top = Path(__file__).parents[2]
     for folder in ("contactstudy", "meshes", "studies", "reports/template"):
         ignored = shutil.ignore_patterns("__pycache__")
         shutil.copytree(top / folder, tmp_path / "copy" / folder, ignore=ignored)

@@ -143,7 +143,7 @@ def test_what_a_kind_refuses_and_what_it_has_not(pendulum, tmp_path, capsys):
         (["a/one.toml", "b/one.toml"], r"b/one.toml: is called one like the companion .*a/one"),
         (["a/one.toml", "a/one.toml"], r"is called one like the companion"),
         (["a/main.toml"], r"is called main like the study that it accompanies"),
-        (["a/figures.toml"], r"is called figures like a folder that every study has"),
+        (["a/figures.toml"], r"is called figures like a file or folder of every study"),
     ],
 )
 def test_companions_that_would_overwrite_each_other_are_refused(

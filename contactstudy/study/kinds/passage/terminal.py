@@ -2,6 +2,7 @@
 
 from rich.box import SIMPLE
 from rich.table import Table
+from rich.text import Text
 
 from contactstudy.study.results import StudyResults
 
@@ -11,7 +12,7 @@ _CAPTION = "error: relative L2 of the contact force, of the total and of its dyn
 def summary(results: StudyResults) -> list[Table]:
     """What each run cost, and how far it is from the reference."""
     runs = results.metrics["runs"]
-    table = Table(title=results.title, box=SIMPLE, caption=_CAPTION, collapse_padding=True)
+    table = Table(title=Text(results.title), box=SIMPLE, caption=_CAPTION, collapse_padding=True)
     table.add_column("run", no_wrap=True)
     for heading in ("dofs", "steps", "set-up s", "steps s", "MB", "error", "dynamic"):
         table.add_column(heading, justify="right", no_wrap=True)

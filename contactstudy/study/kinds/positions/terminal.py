@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from rich.box import SIMPLE
 from rich.table import Table
+from rich.text import Text
 
 from contactstudy.study.results import StudyResults
 
@@ -26,7 +27,7 @@ def summary(results: StudyResults) -> list[Table]:
     tables = []
     for side, run in results.runs.items():
         table = Table(
-            title=f"{results.title}: {side} wheel",
+            title=Text(f"{results.title}: {side} wheel"),
             box=SIMPLE,
             collapse_padding=True,
             caption="y: contact position on the rail, to the field side",
