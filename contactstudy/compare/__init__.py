@@ -1,1 +1,1 @@
-"""How far two results are from each other: norms, bands, convergence, passing components."""
+"""How far two results are from each other: norms, bands, refinement, passing components."""

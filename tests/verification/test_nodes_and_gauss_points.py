@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from contactstudy.compare.convergence import fitted_order
+from contactstudy.compare.refinement import fitted_order
 from contactstudy.halfspace.hertz import contact_modulus, hertz_contact
 from contactstudy.verification.cases.pressed_blocks import blocks
 

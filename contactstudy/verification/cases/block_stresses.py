@@ -10,7 +10,7 @@ from scipy.interpolate import CubicSpline
 from scipy.optimize import minimize_scalar
 
 from contactstudy.arrays import Array
-from contactstudy.compare.convergence import fitted_order
+from contactstudy.compare.refinement import fitted_order
 from contactstudy.contact.complementarity import press
 from contactstudy.geometry.quadrature import point_line
 from contactstudy.halfspace.hertz import contact_modulus, hertz_contact

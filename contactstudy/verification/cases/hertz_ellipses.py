@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import elliprd
 
-from contactstudy.compare.convergence import fitted_order
+from contactstudy.compare.refinement import fitted_order
 from contactstudy.halfspace.hertz import HertzContact, contact_modulus, hertz_contact
 from contactstudy.plot.curves import Plot, curve
 from contactstudy.verification.cases.pressed_blocks import BlockPress, blocks

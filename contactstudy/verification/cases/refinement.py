@@ -9,8 +9,7 @@ import xarray as xr
 
 from contactstudy.arrays import Array
 from contactstudy.compare import norms
-from contactstudy.compare.convergence import observed_order
-from contactstudy.exceptions import NumericalError
+from contactstudy.compare.refinement import convergence
 
 BAND = 500.0
 """Hz. Table 1's roughness ends at 265 Hz at 300 km/h; what the contact force has above comes from
@@ -64,18 +63,15 @@ class Refinement:
     def orders(self) -> Array:
         """Observed order of each three neighbouring levels, (levels - 2, quantities).
 
-        `convergence.observed_order` with the values 0, e21, e21 + e32, from the steps between
-        the levels; nan where they do not become smaller.
+        `compare.refinement` with the values 0, e21, e21 + e32, from the steps between the
+        levels; nan where they do not become smaller.
         """
         steps, found = self.steps, np.full((len(self.runs) - 2, len(QUANTITIES)), np.nan)
         for k in range(len(found)):
             sizes = tuple(reversed(self.sizes[k : k + 3]))
             for q in range(len(QUANTITIES)):
                 e32, e21 = steps[k, q], steps[k + 1, q]
-                try:
-                    found[k, q] = observed_order((0.0, e21, e21 + e32), sizes)
-                except NumericalError:
-                    continue
+                found[k, q] = convergence(sizes, (0.0, e21, e21 + e32)).order
         return found
 
     @property

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.integrate import dblquad
 
-from contactstudy.compare.convergence import fitted_order
+from contactstudy.compare.refinement import fitted_order
 from contactstudy.contact.complementarity import contact_forces
 from contactstudy.exceptions import InputError, NumericalError
 from contactstudy.halfspace.hertz import contact_modulus, hertz_contact

@@ -8,7 +8,7 @@ import subprocess
 import pytest
 
 from contactstudy import cli
-from contactstudy.compare.convergence import fitted_order
+from contactstudy.compare.refinement import fitted_order
 from contactstudy.exceptions import InputError, NumericalError
 from contactstudy.plot.curves import Curve, Plot, curve
 from contactstudy.report.verification import write_verification
