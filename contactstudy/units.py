@@ -149,5 +149,6 @@ class Limits:
         """What is allowed, e.g. ``above 0 N/m``."""
         words = {"above": self.above, "at least": self.at_least, "at most": self.at_most}
         limits = [f"{word} {limit:g}" for word, limit in words.items() if limit is not None]
-        kind = "a whole number " if self.whole else ("" if limits else "a number ")
-        return f"{kind}{' and '.join(limits)} {self.unit}".replace("  ", " ").strip()
+        kind = "a whole number" if self.whole else ("" if limits else "a number")
+        unit = f"in {self.unit}" if self.unit and not limits else self.unit
+        return " ".join(part for part in (kind, " and ".join(limits), unit) if part)

@@ -33,6 +33,8 @@ def find_study(study: str | Path) -> Path:
     InputError
         With close matches when there is no such study.
     """
+    if not isinstance(study, str | Path):
+        raise InputError(f"study = {study!r}: must be a file or the name of a shipped study")
     path, name = Path(study), str(study)
     if path.is_file():
         return path

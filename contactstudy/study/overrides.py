@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Iterable, Mapping
+from copy import deepcopy
 from typing import Any
 
 from contactstudy.validation import Table, entries
@@ -82,12 +83,14 @@ def _read(
 
 
 def _put(data: dict[str, Any], key: str, value: Any) -> list[str]:
+    if not isinstance(key, str) or not all(key.split(".")):
+        return [f"{key!r}: must be a dotted key, e.g. 'journey.speed'"]
     *path, last = key.split(".")
     for part in path:
         data = data.setdefault(part, {})
         if not isinstance(data, dict):
             return [f"{key}: goes through a value that is no table"]
-    data[last] = list(value) if isinstance(value, tuple) else value
+    data[last] = list(value) if isinstance(value, tuple) else deepcopy(value)
     return []
 
 

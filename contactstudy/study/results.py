@@ -101,6 +101,11 @@ def write_results(results: StudyResults, out_dir: Path) -> list[Path]:
 def open_results(out_dir: str | Path) -> xr.DataTree:
     """The tree of a finished study: a node a run, the study's attributes at the root.
 
+    Parameters
+    ----------
+    out_dir : str or Path
+        Its folder, or its ``result.nc``.
+
     Raises
     ------
     InputError
@@ -108,11 +113,15 @@ def open_results(out_dir: str | Path) -> xr.DataTree:
     """
     import xarray as xr
 
+    if not isinstance(out_dir, str | Path):
+        raise InputError(f"out_dir = {out_dir!r}: must be the folder of a study's results")
+    path = Path(out_dir)
     try:
-        with xr.open_datatree(Path(out_dir) / RESULT_FILE, engine="h5netcdf") as tree:
+        file = path if path.is_file() else path / RESULT_FILE
+        with xr.open_datatree(file, engine="h5netcdf") as tree:
             return tree.load()
     except (OSError, ValueError, KeyError, RuntimeError) as error:
-        raise _unreadable(Path(out_dir), error) from error
+        raise _unreadable(path, error) from error
 
 
 def read_results(out_dir: str | Path) -> StudyResults:
@@ -123,8 +132,8 @@ def read_results(out_dir: str | Path) -> StudyResults:
     InputError
         When a file is missing or damaged.
     """
-    out_dir = Path(out_dir)
-    tree = open_results(out_dir)
+    tree, out_dir = open_results(out_dir), Path(out_dir)
+    out_dir = out_dir.parent if out_dir.is_file() else out_dir
     try:
         loaded = {key: tree.attrs[key] for key in _TEXTS}
         loaded |= {key: json.loads(tree.attrs[key]) for key in _JSON}

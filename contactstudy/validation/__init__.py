@@ -8,7 +8,7 @@ units that are printed (`resolved`, `units`), and the list of all keys (`entries
 
 from contactstudy.validation.base import Naming, Parameters
 from contactstudy.validation.checks import not_negative, positive, raise_if
-from contactstudy.validation.definition import Parameter, parameter, parameters
+from contactstudy.validation.definition import Parameter, as_list, parameter, parameters
 from contactstudy.validation.messages import complaint, did_you_mean, unknown
 from contactstudy.validation.metadata import (
     Above,
@@ -51,6 +51,7 @@ __all__ = [
     "Variants",
     "When",
     "Written",
+    "as_list",
     "by",
     "complaint",
     "did_you_mean",

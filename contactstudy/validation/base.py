@@ -107,20 +107,25 @@ def check(owner: type, given: Mapping[str, Any], key: Naming) -> tuple[dict[str,
             continue
         value = given[p.name]
         if value is None and p.by is not None:
-            value = p.by.defaults.get(given.get(p.by.decider) or "")
+            decided = given.get(p.by.decider)
+            value = p.by.defaults.get(decided) if isinstance(decided, str) else None
         if value is None and p.default is None:
             continue  # its owner fills it in
         if p.variants is not None:
             problems += _wrong_variant(p, value, key)
             continue
-        values[p.name], wrong = p.read(value)
-        problems += [
-            f"{key(p.name)}{place}: {text}"
-            if item is None
-            else complaint(f"{key(p.name)}{place}", item, text)
-            for place, item, text in wrong
-        ]
+        values[p.name], wrong = read_one(p, value, key(p.name))
+        problems += wrong
     return values, problems
+
+
+def read_one(p: Parameter, value: Any, name: str) -> tuple[Any, list[str]]:
+    """Value of one parameter as its class holds it, and complaints; `name` is the caller's."""
+    held, wrong = p.read(value)
+    return held, [
+        f"{name}{place}: {text}" if item is None else complaint(f"{name}{place}", item, text)
+        for place, item, text in wrong
+    ]
 
 
 def _wrong_variant(p: Parameter, value: Any, key: Naming) -> list[str]:

@@ -2,7 +2,7 @@
 
 import dataclasses
 import os
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache, cached_property
 from types import NoneType, UnionType
@@ -94,9 +94,9 @@ class Parameter:
         return self._items(value, self.listed)
 
     def _items(self, value: Any, kinds: tuple[Any, ...]) -> tuple[Any, list[Problem]]:
-        if isinstance(value, str | Mapping) or not isinstance(value, Iterable):
+        given = as_list(value)
+        if given is None:
             return None, [("", value, "must be a list")]
-        given = list(value)
         if kinds[-1] is not Ellipsis and len(given) > len(kinds):
             return None, [("", given, f"must be a list of {len(kinds)} values")]
         found, problems = [], []
@@ -132,6 +132,12 @@ class Parameter:
             hint = did_you_mean(value, self.choices) if isinstance(value, str) else ""
             raise UnitError(f"must be {any_of(self.choices)}{hint}")
         return value
+
+
+def as_list(value: Any) -> list[Any] | None:
+    """Items of a list, tuple, range or array of one dimension; None for anything else."""
+    listed = isinstance(value, list | tuple | range) or getattr(value, "ndim", None) == 1
+    return list(value) if listed and not isinstance(value, memoryview) else None
 
 
 def _parameters(owner: type) -> tuple[Parameter, ...]:

@@ -9,7 +9,15 @@ from typing import Any, Literal, cast
 
 from contactstudy.exceptions import InputError
 from contactstudy.units import Limits
-from contactstudy.validation.base import Parameters, Place, check, naming, of_variant, only_with
+from contactstudy.validation.base import (
+    Parameters,
+    Place,
+    check,
+    naming,
+    of_variant,
+    only_with,
+    read_one,
+)
 from contactstudy.validation.definition import Parameter, parameters
 from contactstudy.validation.messages import any_of, complaint, did_you_mean, unknown
 from contactstudy.validation.metadata import Variants
@@ -81,10 +89,14 @@ def read(table: Table, data: Any, path: str, **others: Any) -> tuple[Any, list[s
     if not isinstance(data, Mapping):
         return None, [complaint(path, data, "must be a table")]
     known = entries(table)
-    problems = [unknown(path, key, list(known)) for key in data if key not in known]
     chosen: dict[str, str] = {}
     made, wrong = _made(table, data, path, chosen, others)
-    problems += wrong
+    here = [
+        key
+        for key, entry in known.items()
+        if all(chosen[d] in values for d, values in entry.conditions if d in chosen)
+    ]
+    problems = [unknown(path, key, here) for key in data if key not in known] + wrong
     for key in sorted(key for key in data if key in known):
         for decider, values in known[key].conditions:
             if decider in chosen and chosen[decider] not in values:
@@ -105,7 +117,8 @@ def _made(
         if not isinstance(name, str) or name not in table.classes:
             hint = did_you_mean(name, table.classes) if isinstance(name, str) else ""
             allowed = f"must be {any_of(table.classes)}{hint}"
-            return None, [complaint(f"{path}.{table.key}", name, allowed)]
+            wrong = [complaint(f"{path}.{table.key}", name, allowed)]
+            return None, wrong + _wrong_for_all(table, data, path)
         chosen[table.key] = name
         made = table.classes[name]
         return (None, []) if made is None else _made(made, data, path, chosen, others)
@@ -127,6 +140,21 @@ def _made(
     except InputError as error:
         problems += error.problems
     return made, problems
+
+
+def _wrong_for_all(table: Variants, data: Mapping[str, Any], path: str) -> list[str]:
+    """Complaints about keys that are wrong whichever class is chosen."""
+    problems: list[str] = []
+    classes = [entries(made) for made in table.classes.values() if made is not None]
+    for key, value in data.items():
+        found = [
+            read_one(known[key].parameter, value, f"{path}.{key}")[1]
+            for known in classes
+            if key in known
+        ]
+        if found and all(found):
+            problems += found[0]
+    return problems
 
 
 def resolve_paths(table: Table, data: Any, base: Path) -> None:

@@ -91,6 +91,22 @@ def test_what_is_no_study_is_refused():
     for wrong in (None, 3, cs.Track()):
         with pytest.raises(InputError, match="must be a file, the name of a shipped study or a S"):
             cs.run(wrong)
+        with pytest.raises(InputError, match="must be a file or the name of a shipped study"):
+            cs.load(wrong)
+        with pytest.raises(InputError, match="must be the folder of a study's results"):
+            cs.open_results(wrong)
+
+
+@pytest.mark.parametrize("key", [3, "", "journey.", ".speed", None, ("journey", "speed")])
+def test_what_is_no_key_is_refused(key):
+    with pytest.raises(InputError, match=r"must be a dotted key, e\.g\. 'journey\.speed'"):
+        cs.load("smooth_rail", {key: 4, "journey.speed": 50.0})
+
+
+def test_values_of_a_caller_stay_as_they_are():
+    table = {"spectrum": "paper", "seed": 2}
+    cs.load("point_vs_surface", {"irregularity": table, "irregularity.spectrum": "smooth"})
+    assert table == {"spectrum": "paper", "seed": 2}
 
 
 def test_cache_counts_and_clears_runs_from_python(tmp_path, monkeypatch, capsys):

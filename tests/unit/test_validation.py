@@ -7,6 +7,7 @@ import pickle
 from dataclasses import dataclass, field, replace
 from typing import Annotated, Literal
 
+import numpy as np
 import pytest
 
 from contactstudy.exceptions import InputError
@@ -91,6 +92,10 @@ class Bed(Parameters):
         ({"band": [1]}, "band.1: is missing"),
         ({"band": [1, 2, 3]}, "band = [1, 2, 3]: must be a list of 2 values"),
         ({"places": 3}, "places = 3: must be a list"),
+        ({"places": np.array(3.0)}, "places = 3.0: must be a list"),
+        ({"places": b"12"}, "places = b'12': must be a list"),
+        ({"places": {1.0}}, "places = {{1.0}}: must be a list"),
+        ({"kind": ["soft"]}, "kind = ['soft']: must be \"soft\" or \"stiff\""),
         ({"places": [1, -2]}, "places.1 = -2: must be at least 0 m"),
         ({"sides": ["rigt"]}, "sides.0 = \"rigt\": must be \"left\" or \"right\" (did you mean"),
         ({"roll": "stand"}, 'roll = "stand": must be a number in rad or text with a unit, or "r'),
@@ -123,6 +128,10 @@ def test_values_are_held_in_si():
     assert pickle.loads(pickle.dumps(made)) == made and hash(made) == hash(replace(made))
 
 
+def test_arrays_and_ranges_are_lists():
+    assert Bed(places=np.array([1.0, 2.0])).places == Bed(places=range(1, 3)).places == (1.0, 2.0)
+
+
 def test_a_default_by_another_value():
     assert Bed().count == 2 and Bed(kind="stiff").count == 5
     assert read(Bed, {"kind": "stiff"}, "bed")[0].count == 5
@@ -144,6 +153,19 @@ def test_a_key_chooses_a_class():
         assert found.startswith(problem)
     with pytest.raises(InputError, match="must be of type Spring or Damper or None"):
         Bed(layer="spring")
+
+
+def test_keys_of_other_classes_are_not_offered():
+    (found,) = read(Bed, {"zzz": 1}, "bed")[1]
+    assert "spring_stiffness" in found and "damping" not in found
+    (found,) = read(Bed, {"layer": "damper", "zzz": 1}, "bed")[1]
+    assert "spring_stiffness" not in found and found.endswith("layer, damping")
+
+
+def test_a_wrong_deciding_key_hides_no_other_problem():
+    table = {"layer": "rubber", "damping": -1, "spring_stiffness": 5}
+    choice, value = read(Bed, table, "bed")[1]
+    assert choice.startswith('bed.layer = "rubber"') and value.startswith("bed.damping = -1: must")
 
 
 def test_everything_wrong_at_once():

@@ -49,7 +49,8 @@ def test_series():
     assert read("0 mm to 10 mm by 0.5 mm") == tuple(round(0.5e-3 * k, 6) for k in range(21))
     assert read("10 mm to 0 mm by -5 mm") == (0.01, 0.005, 0.0)
     assert read(["1 mm", 0.002]) == (0.001, 0.002) and read("3 mm") == (0.003,)
-    for wrong in ("0 mm to 1 mm by 0.3 mm", "0 mm to 1 mm by 0 mm", "0 to 1 by -1", []):
+    assert read(np.array([0.001, 0.002])) == (0.001, 0.002)
+    for wrong in ("0 mm to 1 mm by 0.3 mm", "0 mm to 1 mm by 0 mm", "0 to 1 by -1", [], b"12"):
         with pytest.raises(InputError):
             read(wrong)
     with pytest.raises(InputError, match=r"at least -0.1 and at most 0.1 m"):

@@ -75,6 +75,8 @@ def test_results_open_as_one_tree_that_shows_its_runs(tmp_path):
     tree = open_results(tmp_path)
     assert list(tree.children) == ["irregularity", "surface", "point"]
     assert tree["point/contact_force"].attrs["units"] == "N" and tree.attrs["title"]
+    assert open_results(tmp_path / "result.nc").identical(tree)
+    assert read_results(tmp_path / "result.nc").metrics == read_results(tmp_path).metrics
     for shown in (repr(tree), repr(results()), results()._repr_html_()):
         assert "surface" in shown and "contact_force" in shown
 

@@ -11,7 +11,7 @@ from contactstudy.study.kinds.passage.reading import parse_study
 from contactstudy.study.kinds.passage.runs import SOLVERS, PointRun, SurfaceRun
 from contactstudy.study.kinds.passage.schema import SECTIONS, Study
 from contactstudy.study.kinds.passage.solid import Solid
-from contactstudy.study.kinds.positions.table import Positions
+from contactstudy.study.kinds.positions.table import Positions, PositionsStudy
 from contactstudy.study.loading import load_study
 from contactstudy.track.model import DiscreteSupports, Slab, Track, WinklerFoundation
 from contactstudy.validation import entries
@@ -104,6 +104,26 @@ def test_runs_are_checked():
         built(runs={"irregularity": PointRun()})
     with pytest.raises(InputError, match=r"runs\.p: is a Journey; must be of type PointRun or Sur"):
         built(runs={"p": Journey()})
+
+
+@pytest.mark.parametrize(
+    ("parts", "said"),
+    [
+        ({"runs": None}, "runs: is a NoneType; must be of type dict"),
+        ({"runs": [PointRun()]}, "runs: is a list; must be of type dict"),
+        ({"runs": {3: PointRun()}}, r"runs\.3: a run's name is letters"),
+        ({"runs": {"p": PointRun()}, "reference": []}, r"compare\.reference = \[\]: must be a run"),
+        ({"runs": None, "track": 3}, "track: is a int"),
+    ],
+)
+def test_parts_of_a_wrong_type_are_refused(parts, said):
+    with pytest.raises(InputError, match=said):
+        built(**parts)
+
+
+def test_positions_have_defaults():
+    study = PositionsStudy("s", "S")
+    assert study.description == "" and study.table == Positions()
 
 
 def test_texts_have_no_unit():

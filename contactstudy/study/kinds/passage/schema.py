@@ -67,11 +67,11 @@ class Study:
 
     def __post_init__(self) -> None:
         """Refuse what is impossible in combination, as in a file; cells fit the supports."""
-        raise_if(
-            wrong_types({key: (SECTIONS[key], getattr(self, key)) for key in SECTIONS})
-            + wrong_types({f"runs.{name}": (SOLVERS, run) for name, run in self.runs.items()})
-            + wrong_runs(self.runs)
-        )
+        runs = self.runs if isinstance(self.runs, dict) else {}
+        parts: dict[str, tuple[Table | type, Any]] = {"runs": (dict, self.runs)}
+        parts |= {key: (SECTIONS[key], getattr(self, key)) for key in SECTIONS}
+        parts |= {f"runs.{name}": (SOLVERS, run) for name, run in runs.items()}
+        raise_if(wrong_types(parts) + wrong_runs(runs))
         if not self.solid.given("cell_length"):
             object.__setattr__(self, "solid", self.solid.fitting(self.track))
         raise_if(combined(vars(self), self.runs) + wrong_reference(self.reference, self.runs))
@@ -152,7 +152,7 @@ class Study:
         return [key for key in SECTIONS if used.get(key, True)]
 
 
-def wrong_types(tables: dict[str, tuple[Table, Any]]) -> list[str]:
+def wrong_types(tables: dict[str, tuple[Table | type, Any]]) -> list[str]:
     """Complaints about tables that are not what the study is made of."""
     problems = []
     for key, (table, value) in tables.items():
@@ -166,7 +166,7 @@ def wrong_runs(names: Iterable[str]) -> list[str]:
     """Complaints about names that no run can have."""
     problems = []
     for name in names:
-        if not _RUN_NAME.fullmatch(name):
+        if not isinstance(name, str) or not _RUN_NAME.fullmatch(name):
             problems.append(f"runs.{name}: a run's name is letters, digits and _, a letter first")
         elif name == IRREGULARITY:
             problems.append(
@@ -177,7 +177,7 @@ def wrong_runs(names: Iterable[str]) -> list[str]:
 
 def wrong_reference(reference: Any, runs: Collection[str]) -> list[str]:
     """Complaint about a reference that is no run."""
-    if reference is None or reference in runs:
+    if reference is None or (isinstance(reference, str) and reference in runs):
         return []
     allowed = f"must be a run of the study: {', '.join(runs) or 'it has none'}"
     hint = did_you_mean(str(reference), runs)

@@ -11,13 +11,16 @@ _CAPTION = "error: relative L2 of the contact force, of the total and of its dyn
 
 def summary(results: StudyResults) -> list[Table]:
     """What each run cost, and how far it is from the reference."""
-    runs = results.metrics["runs"]
-    table = Table(title=Text(results.title), box=SIMPLE, caption=_CAPTION, collapse_padding=True)
+    runs, compared = results.metrics["runs"], results.metrics["comparisons"]
+    table = Table(title=Text(results.title), box=SIMPLE, collapse_padding=True)
+    table.caption = _CAPTION if compared else None
     table.add_column("run", no_wrap=True)
-    for heading in ("dofs", "steps", "set-up s", "steps s", "MB", "error", "dynamic"):
+    errors = ("error", "dynamic") if compared else ()
+    for heading in ("dofs", "steps", "set-up s", "steps s", "MB", *errors):
         table.add_column(heading, justify="right", no_wrap=True)
     for name, run in runs.items():
-        force = results.metrics["comparisons"].get(name, {}).get("contact_force", {})
+        force = compared.get(name, {}).get("contact_force", {})
+        norms = (force.get("relative_l2"), force.get("relative_l2_dynamic")) if compared else ()
         table.add_row(
             name,
             str(run["dofs"]),
@@ -25,8 +28,7 @@ def summary(results: StudyResults) -> list[Table]:
             f"{run['seconds']['setup']:.1f}",
             f"{run['seconds']['stepping']:.1f}",
             "" if run["peak_memory_mb"] is None else f"{run['peak_memory_mb']:.0f}",
-            _percent(force.get("relative_l2"), name == results.reference),
-            _percent(force.get("relative_l2_dynamic"), name == results.reference),
+            *(_percent(norm, name == results.reference) for norm in norms),
         )
     return [table] if runs else []
 

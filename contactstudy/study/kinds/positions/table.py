@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, Literal
@@ -31,6 +31,7 @@ from contactstudy.validation import (
     Same,
     Unit,
     Written,
+    as_list,
     raise_if,
     read,
     resolve_paths,
@@ -55,9 +56,12 @@ def _series(value: Any, unit: str) -> Any:
                 f"must lead from the first to the last value in whole steps, {_MOST} at most"
             )
         return [float(f"{first + k * step:.12g}") for k in range(round(count) + 1)]
-    if isinstance(value, list | tuple) and not value:
+    given = as_list(value)
+    if given is None:
+        return [value]
+    if not given:
         raise UnitError("must hold at least one value")
-    return value if isinstance(value, list | tuple) else [value]
+    return given
 
 
 SERIES = Written(_series)
@@ -134,8 +138,8 @@ class PositionsStudy:
 
     name: str
     title: str
-    description: str
-    table: Positions
+    description: str = ""
+    table: Positions = field(default_factory=Positions)
     companions: tuple[str, ...] = ()
     reference: str | None = None
 
