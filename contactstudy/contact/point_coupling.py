@@ -40,13 +40,16 @@ class PointGaps:
 
     @staticmethod
     def rows(
-        wheel_dofs: IntArray, rail_dofs: IntArray, rail_weights: Array
+        wheel_dofs: IntArray, wheel_weights: Array, rail_dofs: IntArray, rail_weights: Array
     ) -> tuple[IntArray, Array]:
-        """B from the rail's rows (n_times, nw, k - 1): +1 on the wheel, minus the rail."""
-        shape = (*rail_dofs.shape[:2], 1)
-        wheel = np.broadcast_to(wheel_dofs[None, :, None], shape)
-        dofs = np.concatenate((wheel, rail_dofs), axis=2)
-        return dofs, np.concatenate((np.ones(shape), -rail_weights), axis=2)
+        """B from the wheels' rows (nw, j), j = 1 without modes, less the rail's (n_times, nw, k-j).
+
+        Weights of a wheel: +1 for its displacement, then those of its modes at the contact.
+        """
+        shape = (*rail_dofs.shape[:2], wheel_dofs.shape[1])
+        dofs = np.concatenate((np.broadcast_to(wheel_dofs, shape), rail_dofs), axis=2)
+        wheel = np.broadcast_to(wheel_weights, shape)
+        return dofs, np.concatenate((wheel, -rail_weights), axis=2)
 
 
 @dataclass(frozen=True)

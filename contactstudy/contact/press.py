@@ -11,6 +11,8 @@ from contactstudy.exceptions import InputError
 from contactstudy.geometry.points import ContactPoints
 
 DEFAULT_LAW = Penalty()
+PRESS_LOADS = np.linspace(0.25, 2.0, 8)
+"""Loads of a static press from which a stiffness is taken, in static wheel loads."""
 
 
 @dataclass(frozen=True)
@@ -42,8 +44,8 @@ class PressCurve:
         return float(np.polyfit(np.log(self.approach), np.log(self.force), 1)[0])
 
 
-def tangent_stiffness(curve: PressCurve, load: float) -> float:
-    """Tangent dF/d(approach) [N/m] of a press curve at a load [N], free of the mesh's steps.
+def press_stiffness(curve: PressCurve, load: float) -> tuple[float, float]:
+    """Tangent dF/d(approach) and secant F/approach [N/m] at a load [N], free of the mesh's steps.
 
     As the patch grows points enter it one after the other: the computed curve is a polygon
     whose own slope jumps by a few percent. So the curve ``approach = c1 F^(2/3) + c2 F``,
@@ -57,13 +59,19 @@ def tangent_stiffness(curve: PressCurve, load: float) -> float:
     F = curve.force
     if len(F) < 4 or not F.min() <= load <= F.max():
         raise InputError(
-            f"tangent stiffness at {load} N: the press curve must have four loads or more around "
+            f"contact stiffness at {load} N: the press curve must have four loads or more around "
             f"it (it has {len(F)} from {F.min():.6g} to {F.max():.6g} N)"
         )
     basis = np.stack([F ** (2 / 3), F], axis=1)
     c1, c2 = np.linalg.lstsq(basis, curve.approach, rcond=None)[0]
-    # d(approach)/dF = 2/3 c1 F^(-1/3) + c2
-    return float(1.0 / (2 / 3 * c1 * load ** (-1 / 3) + c2))
+    # approach/F = c1 F^(-1/3) + c2,  d(approach)/dF = 2/3 c1 F^(-1/3) + c2
+    local = c1 * load ** (-1 / 3)
+    return float(1.0 / (2 / 3 * local + c2)), float(1.0 / (local + c2))
+
+
+def tangent_stiffness(curve: PressCurve, load: float) -> float:
+    """The tangent alone [N/m]."""
+    return press_stiffness(curve, load)[0]
 
 
 def press_curve(

@@ -1,16 +1,18 @@
 """Wheel and rail at rest, ready to be pressed together."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from contactstudy.arrays import Array
 from contactstudy.contact.nearby import NearbyColumns
 from contactstudy.contact.press import PressCurve, press_curve
+from contactstudy.contact.press_table import PressTable, press_table
 from contactstudy.contact.rail_surface import RailSurface
 from contactstudy.contact.surface_contact import SurfaceContact
 from contactstudy.dynamics.banded import Factor
 from contactstudy.geometry.points import ContactPoints
+from contactstudy.solids.wheel_modes import residual_flexibility
 from contactstudy.track.meshed import MeshedTrack
 
 
@@ -71,3 +73,16 @@ def geometry_press(
     """
     at = bodies_at_rest(track, contact, x)
     return press_curve(at.points, at.flexibility, loads, contact.enforcement, at.centre_line)
+
+
+def geometry_table(track: MeshedTrack, contact: SurfaceContact, load: float) -> PressTable:
+    """The press in mid-bay as a point law has it, from nothing to a multiple of a load [N].
+
+    What modes of the wheel give way statically is left out of it: they move by themselves.
+    """
+    if contact.modes is not None:
+        contact = replace(
+            contact, wheel=residual_flexibility(contact.wheel, contact.modes), modes=None
+        )
+    at = bodies_at_rest(track, contact)
+    return press_table(at.points, at.flexibility, load, contact.enforcement, at.centre_line)

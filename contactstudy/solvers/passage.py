@@ -7,6 +7,7 @@ from typing import Generic, TypeVar
 import numpy as np
 
 from contactstudy.arrays import Array, IntArray
+from contactstudy.contact.filters import ContactFilter
 from contactstudy.dynamics.banded import LinearSystem
 from contactstudy.irregularity import Profile, faded
 from contactstudy.solvers.journey import Journey
@@ -69,8 +70,17 @@ class Passage(Generic[T]):
     @cached_property
     def roughness(self) -> Array:
         """(n_times, nw) r under each wheel, faded in from its start [m]."""
+        return self.felt()
+
+    def felt(self, contact_filter: ContactFilter | None = None) -> Array:
+        """(n_times, nw) what each wheel feels of the faded irregularity [m]; r without a filter."""
         ways = np.ascontiguousarray(self.positions.T)
-        return np.column_stack([self.faded(k)(x) for k, x in enumerate(ways)])
+        levels = [self.faded(k) for k in range(len(ways))]
+        if contact_filter is None:
+            return np.column_stack([level(x) for level, x in zip(levels, ways, strict=True)])
+        return np.column_stack(
+            [contact_filter(level, x) for level, x in zip(levels, ways, strict=True)]
+        )
 
     def faded(self, wheel: int) -> Profile:
         """The irregularity as a wheel meets it, faded in from its start."""

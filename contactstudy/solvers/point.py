@@ -8,8 +8,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from contactstudy.arrays import Array, IntArray
+from contactstudy.contact.filters import ContactFilter
 from contactstudy.contact.laws import ContactLaw, HertzSpring, LinearSpring, RigidContact
 from contactstudy.contact.point_coupling import PointCoupling, PointGaps
+from contactstudy.contact.point_wheel import PointWheel
 from contactstudy.dynamics.stepper import Integrator, average_acceleration, generalised_alpha
 from contactstudy.irregularity import Profile
 from contactstudy.solvers.journey import Journey
@@ -36,6 +39,8 @@ def point_contact(
     journey: Journey,
     *,
     law: ContactLaw,
+    contact_filter: ContactFilter | None = None,
+    wheel: PointWheel | None = None,
     observers: Sequence[Observer] = (),
     integrator: Integrator | None = None,
 ) -> xr.Dataset:
@@ -50,6 +55,10 @@ def point_contact(
         holds in tension.
     irregularity : Profile
         r(X), positive raises the running surface. It is faded in from each wheel's start.
+    contact_filter : ContactFilter, optional
+        What the contact makes of the irregularity, see `contactstudy.contact.filters`.
+    wheel : PointWheel, optional
+        Elastic modes of the vehicle's one wheel.
     observers : sequence of Observer
         Watch the run, such as `solvers.observers.ReportProgress`.
     integrator : Integrator, optional
@@ -83,27 +92,48 @@ def point_contact(
         problems += observer.problems_on(journey)
     raise_if(problems)
 
-    passage = Passage(discrete, vehicle, irregularity, journey)
-    coupling = point_coupling(passage, law)
+    moving = vehicle if wheel is None else wheel.on(vehicle)
+    passage = Passage(discrete, moving, irregularity, journey)
+    coupling = point_coupling(passage, law, contact_filter, wheel)
     setup = time.perf_counter() - began
     told = {"solver": "point", **_describe_rail(discrete), **_describe_law(law)}
+    if wheel is not None:
+        told |= {"wheel": "modal", "wheel_modes": len(wheel.shapes)}
     data = run_through(passage, coupling, integrator, observers, told)
     data.attrs["seconds_setup"] += setup
     return data
 
 
-def point_coupling(passage: Passage[DiscreteTrack], law: ContactLaw) -> PointCoupling:
+def point_coupling(
+    passage: Passage[DiscreteTrack],
+    law: ContactLaw,
+    contact_filter: ContactFilter | None = None,
+    wheel: PointWheel | None = None,
+) -> PointCoupling:
     """Join a law to all wheel positions of a passage."""
     track, x, shape = passage.track, passage.positions.ravel(), passage.positions.shape
     dofs, weights = track.rail_rows(x)
     # a spring gives back no more than it stands for
     top = np.maximum(track.top_load_compliance(x), -law.softness)
     gaps = PointGaps(
-        *PointGaps.rows(passage.wheel_dofs, dofs.reshape(*shape, -1), weights.reshape(*shape, -1)),
+        *PointGaps.rows(
+            *_wheel_rows(passage, wheel), dofs.reshape(*shape, -1), weights.reshape(*shape, -1)
+        ),
         (track.local_compliance(x) + top).reshape(shape),
-        passage.roughness,
+        passage.felt(contact_filter),
     )
     return PointCoupling(law, gaps, passage.static_loads, bilateral=track.direction == "Y")
+
+
+def _wheel_rows(
+    passage: Passage[DiscreteTrack], wheel: PointWheel | None
+) -> tuple[IntArray, Array]:
+    """Dofs and weights (nw, j) of the wheels' displacement at the contact, up."""
+    dofs = passage.wheel_dofs[:, None]
+    if wheel is None:
+        return dofs, np.ones(dofs.shape)
+    n, m = passage.n_dofs, len(wheel.shapes)
+    return np.hstack([dofs, np.arange(n - m, n)[None]]), np.r_[1.0, wheel.shapes][None]
 
 
 def _law_problems(law: ContactLaw, direction: Direction, integrator: Integrator) -> list[str]:

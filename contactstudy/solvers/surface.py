@@ -6,8 +6,7 @@ import time
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-import numpy as np
-
+from contactstudy.contact.press import PRESS_LOADS
 from contactstudy.contact.surface_contact import SurfaceContact
 from contactstudy.contact.surface_coupling import SurfaceCoupling, WheelPath
 from contactstudy.dynamics.stepper import Integrator, average_acceleration
@@ -23,9 +22,6 @@ from contactstudy.vehicle import Vehicle
 
 if TYPE_CHECKING:
     import xarray as xr
-
-PRESS_LOADS = np.linspace(0.25, 2.0, 8)
-"""Loads of the static press that comes with a run, in static wheel loads."""
 
 
 def surface_contact(

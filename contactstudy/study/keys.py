@@ -61,7 +61,8 @@ def allowed(p: Parameter) -> str:
         return "true or false"
     if p.listed is None:
         form = f", or {p.written.form}" if p.written and p.written.form else ""
-        return " or ".join(part for part in (p.limits.description() + form, names) if part)
+        more = p.multiples.form if p.multiples else ""
+        return " or ".join(part for part in (p.limits.description() + form, names, more) if part)
     of_names = get_origin(p.listed[0]) is Literal
     each = names if of_names else p.limits.description()
     listed = f"{'a list' if p.listed[-1] is Ellipsis else 'two'}, each {each}"

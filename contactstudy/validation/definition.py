@@ -44,6 +44,7 @@ class Parameter:
     by: m.By | None = None
     variants: m.Variants | None = None
     written: m.Written | None = None
+    multiples: m.Multiples | None = None
     file: m.File | None = None
 
     @property
@@ -84,6 +85,8 @@ class Parameter:
         list_of_choices = self.listed is not None and get_origin(self.listed[0]) is Literal
         if isinstance(value, str) and value in self.choices and not list_of_choices:
             return value, []
+        if self.multiples and (multiple := self.multiples.read(value)):
+            return multiple, []
         try:
             if self.written:
                 value = self.written.convert(value, self.unit)
@@ -124,7 +127,9 @@ class Parameter:
                 return self.limits(value)
             except UnitError as error:
                 others = [f'"{name}"' for name in self.choices]
-                others += [self.written.form] if self.written and self.written.form else []
+                others += [
+                    form.form for form in (self.written, self.multiples) if form and form.form
+                ]
                 if not others:
                     raise
                 raise UnitError(f"{error}, or {' or '.join(others)}") from error
@@ -180,6 +185,7 @@ def _parameter(field: "dataclasses.Field[Any]", hint: Any) -> Parameter:
         by=found.get(m.By),
         variants=found.get(m.Variants),
         written=found.get(m.Written, base.written),
+        multiples=found.get(m.Multiples, base.multiples),
         file=found.get(m.File, base.file),
     )
 

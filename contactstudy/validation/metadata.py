@@ -1,5 +1,7 @@
 """What stands beside the type of a parameter in ``Annotated``; a plain text is its meaning."""
 
+import math
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -83,6 +85,34 @@ class Written:
 
     convert: Callable[[Any, str], Any]
     form: str = ""
+
+
+@dataclass(frozen=True)
+class Multiples:
+    """Of these choices of a parameter a multiple may be given as well: "2 x tangent"."""
+
+    names: tuple[str, ...]
+
+    @property
+    def form(self) -> str:
+        """The end of a complaint."""
+        return f'a multiple like "2 x {self.names[0]}"'
+
+    def read(self, value: Any) -> str | None:
+        """The multiple in its one form; None if the value is none."""
+        match = _MULTIPLE.fullmatch(value) if isinstance(value, str) else None
+        if match is None or match[2] not in self.names or not 0.0 < float(match[1]) < math.inf:
+            return None
+        return f"{float(match[1]):.15g} x {match[2]}"
+
+
+_MULTIPLE = re.compile(r"\s*(\d+\.?\d*(?:[eE][+-]?\d+)?|\.\d+)\s*x\s*(\w+)\s*")
+
+
+def multiple(value: str) -> tuple[float, str]:
+    """Factor and name of a choice that may be a multiple: "2 x tangent", "tangent"."""
+    factor, x, name = value.partition(" x ")
+    return (float(factor), name) if x else (1.0, value)
 
 
 class By:

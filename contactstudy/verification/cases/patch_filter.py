@@ -6,6 +6,7 @@ import numpy as np
 
 from contactstudy.arrays import Array
 from contactstudy.contact.complementarity import press
+from contactstudy.contact.press_table import load_weights
 from contactstudy.halfspace.hertz import contact_modulus, hertz_contact
 from contactstudy.halfspace.love import love_influence
 from contactstudy.plot.curves import Plot, curve
@@ -17,7 +18,6 @@ from contactstudy.study.kinds.passage.solid import Solid
 from contactstudy.verification.cases.wave_filter import (
     PatchPoints,
     ellipse_filter,
-    load_weights,
     pressed_filter,
     small_amplitude_filter,
 )

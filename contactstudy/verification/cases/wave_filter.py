@@ -10,8 +10,9 @@ so at constant F, with lam' the change of force that r makes,
     -delta' = w^T r / w^T 1,   w = n_A * (M_AA^-1 n_A) = n_A * d lam_A/dF * (n_A^T M_AA^-1 n_A)
 
 The wheel rises by the mean of r under the patch, weighted with the forces that come with more
-load. (Points at the edge of the patch carry no force, so that they enter or leave it only
-changes the second order.) For ``r = cos(k x)`` the ratio of the amplitudes is
+load (`contactstudy.contact.press_table.load_weights`). (Points at the edge of the patch carry no
+force, so that they enter or leave it only changes the second order.) For ``r = cos(k x)`` the ratio
+of the amplitudes is
 
     H(k) = | sum_i w_i exp(i k x_i) | / sum_i w_i
 
@@ -28,8 +29,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from contactstudy.arrays import Array
-from contactstudy.contact.complementarity import PressedForces, press
-from contactstudy.exceptions import InputError
+from contactstudy.contact.complementarity import press
 
 
 def ellipse_filter(semi_axis: float, wavelengths: Array) -> Array:
@@ -40,26 +40,6 @@ def ellipse_filter(semi_axis: float, wavelengths: Array) -> Array:
     """
     # numpy's sinc has the factor pi in it: sin(k a)/(k a) with k = 2 pi/wavelength
     return np.asarray(np.abs(np.sinc(2 * semi_axis / np.asarray(wavelengths, dtype=float))))
-
-
-def load_weights(M: Array, normal: Array, solution: PressedForces) -> Array:
-    """Weights of the irregularity at the points in the movement of the wheel, (n,), sum 1.
-
-    Parameters
-    ----------
-    M : ndarray (n, n)
-        Flexibility of both bodies and the penalty, as in `contact.surface_coupling`, m/N.
-    normal : ndarray (n,)
-        Component of the contact normal along the approach.
-    solution : PressedForces
-        Of the smooth bodies under the load.
-    """
-    weights = np.zeros(len(normal))
-    index = np.flatnonzero(solution.active)
-    if not len(index):
-        raise InputError("contact-patch filter: no point is in contact")
-    weights[index] = normal[index] * np.linalg.solve(M[np.ix_(index, index)], normal[index])
-    return weights / weights.sum()
 
 
 def small_amplitude_filter(weights: Array, x: Array, wavelengths: Array) -> Array:

@@ -7,7 +7,7 @@ import pytest
 
 from contactstudy.exceptions import InputError
 from contactstudy.profiles.wheel_file import wheel_sections
-from contactstudy.study.kinds.passage import build
+from contactstudy.study.kinds.passage import build, contact
 from contactstudy.study.loading import load_study
 from contactstudy.study.plan import plan_study
 
@@ -43,12 +43,12 @@ def own_wheel(folder: Path, diameter: float = 860.0, width: float = 65.0) -> Non
 def test_a_run_has_its_own_wheel(tmp_path: Path) -> None:
     study = load_study(written(tmp_path))
     assert [study.wheel(run) for run in "abc"] == ["modal", "quasi-static", "quasi-static"]
-    bodies = {run: [body.name for body in build.bodies(study, run)] for run in "abc"}
+    bodies = {run: [body.name for body in contact.bodies(study, run)] for run in "abc"}
     assert bodies["a"] == ["rail", "wheel", "wheel modes"]
-    assert bodies["b"] == bodies["c"] == ["rail", "wheel"]
+    assert bodies["b"] == ["rail", "wheel"] and bodies["c"] == ["rail", "wheel", "press"]
     assert study.config()["runs"]["b"]["wheel"] == "quasi-static"
     rigid = load_study(written(tmp_path, "rigid"))
-    assert [body.name for body in build.bodies(rigid, "a")] == ["rail"]
+    assert [body.name for body in contact.bodies(rigid, "a")] == ["rail"]
     assert not build.wheel(rigid, "a").flexibility.any()
 
 

@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 
 from contactstudy.contact.complementarity import PressedForces, press
+from contactstudy.contact.press_table import load_weights
 from contactstudy.exceptions import InputError
 from contactstudy.halfspace.hertz import contact_modulus, hertz_contact
 from contactstudy.verification.cases.patch_filter import influence_matrix
 from contactstudy.verification.cases.wave_filter import (
     PatchPoints,
     ellipse_filter,
-    load_weights,
     pressed_filter,
     small_amplitude_filter,
 )

@@ -3,30 +3,24 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
-from contactstudy.contact.laws import ContactLaw, HertzSpring, LinearSpring, RigidContact
-from contactstudy.contact.press import tangent_stiffness
 from contactstudy.contact.surface_contact import SurfaceContact
-from contactstudy.halfspace.hertz import HertzContact, contact_modulus, hertz_contact
 from contactstudy.profiles.wheel_file import wheel_dimensions
 from contactstudy.solids.bodies import modes_body, rail_body, wheel_body
-from contactstudy.solids.cache import CachedBody, cached
+from contactstudy.solids.cache import cached
 from contactstudy.solids.recipe import CellRecipe
 from contactstudy.solids.wheel import WheelFlexibility, WheelRecipe, rigid_wheel
 from contactstudy.solids.wheel_modes import ModesRecipe, WheelModes
 from contactstudy.solids.wheel_recipe import FAR_STEP, FAR_STEP_OF_MODES
-from contactstudy.solvers.at_rest import geometry_press
 from contactstudy.solvers.journey import Journey
-from contactstudy.solvers.surface import PRESS_LOADS
 from contactstudy.study.kinds.passage.placing import contact_zone, geometry, meshed_rail
 from contactstudy.study.kinds.passage.runs import PointRun
 from contactstudy.study.kinds.passage.schema import Study
 from contactstudy.track.beam import BeamTrack
 from contactstudy.track.discrete import DiscreteTrack
-from contactstudy.track.model import GivenRail, Track
+from contactstudy.track.model import Track
 from contactstudy.track.solid import SolidTrack, solid_rail
 
 
@@ -128,18 +122,6 @@ def modes(study: Study, run: str) -> WheelModes | None:
     return cached(modes_body(modes_recipe(study)))
 
 
-def bodies(study: Study, run: str) -> list[CachedBody[Any]]:
-    """The condensed bodies that a run needs."""
-    needed = list[CachedBody[Any]]()
-    if study.meshes_rail(run):
-        needed.append(rail_body(recipe(study)))
-    if study.meshes_wheel(run):
-        needed.append(wheel_body(wheel_recipe(study)))
-    if study.needs_wheel_modes(run):
-        needed.append(modes_body(modes_recipe(study)))
-    return needed
-
-
 def journey(study: Study, run: str) -> Journey:
     """The journey with the time step of a run."""
     return replace(study.journey, time_step=study.time_step(run))
@@ -150,35 +132,3 @@ def frames_at(study: Study) -> tuple[float, ...]:
     table = study.solid
     low, high = table.animation_span or (study.journey.start, study.journey.end)
     return tuple(np.linspace(low, high, table.animation_frames).tolist())
-
-
-def hertz(study: Study) -> HertzContact:
-    """Hertz's contact of the study's wheel and rail under the static wheel load."""
-    rail, load = study.track.rail, study.vehicle.static_load
-    modulus = contact_modulus(rail.youngs_modulus, rail.poisson_ratio)
-    if study.solid.half and isinstance(rail, GivenRail):
-        return hertz_contact(load, modulus, study.vehicle.wheel_radius, rail.crown_radius)
-    return hertz_contact(load, modulus, *geometry(study).relative_radii())
-
-
-def pressed_stiffness(study: Study, described: Track) -> float:
-    """Tangent stiffness in N/m of the study's meshed wheel on its meshed rail, at static load."""
-    load = study.vehicle.static_load
-    loads = np.asarray(PRESS_LOADS) * load
-    curve = geometry_press(solid_track(study, described), surface_contact(study), loads)
-    return tangent_stiffness(curve, load)
-
-
-def contact_law(study: Study, run: str, described: Track) -> ContactLaw:
-    """The contact law of a point run on the track `described`."""
-    table = study.runs[run]
-    assert isinstance(table, PointRun)
-    if table.law == "hertz":
-        return HertzSpring(hertz(study).stiffness)
-    if table.k_r == "rigid":
-        return RigidContact()
-    if study.presses(run):
-        return LinearSpring(pressed_stiffness(study, described))
-    if table.k_r in ("tangent", "hertz_tangent"):
-        return LinearSpring(hertz(study).tangent_stiffness)
-    return LinearSpring(float(table.k_r))

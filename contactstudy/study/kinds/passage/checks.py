@@ -40,10 +40,11 @@ def combined(tables: Mapping[str, Any], runs: Mapping[str, Run]) -> list[str]:
     if solid is None:
         return problems
     meshed = any(run.needs_solid for run in runs.values())
-    pressed = any(isinstance(run, PointRun) and run.k_r == "tangent" for run in runs.values())
+    pressed = [run for run in runs.values() if isinstance(run, PointRun) and run.presses]
     if meshed or pressed:
         if track is not None:
-            problems += solid.problems_on(track, meshed)
+            only_stiffness = not any(p.patch_of_press or p.law != "linear" for p in pressed)
+            problems += solid.problems_on(track, meshed or not only_stiffness)
         if vehicle is not None:
             problems += _wheel(solid, vehicle.wheel_radius)
         if wheelset is not None:

@@ -8,7 +8,7 @@ from contactstudy.executor import Progress, Task
 from contactstudy.solids.cache import CachedBody, cached, is_cached
 from contactstudy.solvers import observers
 from contactstudy.solvers.observers import Observer
-from contactstudy.study.kinds.passage import build
+from contactstudy.study.kinds.passage import build, contact
 from contactstudy.study.kinds.passage.roughness import irregularity_of
 from contactstudy.study.kinds.passage.runs import PointRun, SurfaceRun
 from contactstudy.study.kinds.passage.schema import Study
@@ -31,13 +31,14 @@ def execute_run(study: Study, run: str, progress: Progress | None = None) -> xr.
 def _point(study: Study, run: str, table: PointRun, progress: Progress | None) -> xr.Dataset:
     from contactstudy.solvers.point import point_contact
 
-    track = build.track(study)
     return point_contact(
-        build.point_track(study, table, track),
+        build.point_track(study, table, build.track(study)),
         study.vehicle.vehicle(),
         irregularity_of(study, table.irregularity == "smooth", table.direction),
         build.journey(study, run),
-        law=build.contact_law(study, run, track),
+        law=contact.contact_law(study, run),
+        contact_filter=contact.contact_filter(study, run),
+        wheel=contact.point_wheel(study, run),
         observers=_reports(progress),
         integrator=table.method(),
     )
@@ -68,12 +69,17 @@ def _reports(progress: Progress | None) -> tuple[Observer, ...]:
 
 
 def condensing(study: Study, run: str) -> list[Task]:
-    """Condensing the bodies of a run that the cache does not have."""
+    """Condensing the bodies of a run that the cache does not have, and their press after them."""
+    needed = [body for body in contact.bodies(study, run) if not is_cached(body)]
+    names = [_making(body) for body in needed]
     return [
-        Task(f"condensing the {body.name}", condense_body, (body,))
-        for body in build.bodies(study, run)
-        if not is_cached(body)
+        Task(name, condense_body, (body,), tuple(names[:-1]) if body.name == "press" else ())
+        for name, body in zip(names, needed, strict=True)
     ]
+
+
+def _making(body: CachedBody[Any]) -> str:
+    return "pressing the bodies" if body.name == "press" else f"condensing the {body.name}"
 
 
 def condense_body(body: CachedBody[Any], progress: Progress | None = None) -> None:

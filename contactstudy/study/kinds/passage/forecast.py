@@ -11,7 +11,7 @@ from rich.table import Table
 from contactstudy.exceptions import InputError
 from contactstudy.reporter import Reporter
 from contactstudy.solids.cache import is_cached
-from contactstudy.study.kinds.passage import build
+from contactstudy.study.kinds.passage import build, contact
 from contactstudy.study.kinds.passage.runs import PointRun
 from contactstudy.study.kinds.passage.schema import Study
 from contactstudy.track.beam import BeamTrack, RailTheory
@@ -19,7 +19,7 @@ from contactstudy.track.model import Direction, DiscreteSupports, Slab, Track
 
 # Rough costs on a core of 2020 or later, measured with the shipped studies; for a forecast only.
 START = 4.0  # s, a process with its imports
-CONDENSATION = {"rail": 20.0, "wheel": 20.0, "wheel modes": 3.0}  # s, at 2 mm
+CONDENSATION = {"rail": 20.0, "wheel": 20.0, "wheel modes": 3.0, "press": 2.0}  # s, at 2 mm
 WHOLE = 5.0  # how much dearer the rail's whole section is to condense
 POINT_STEP, POINT_STEP_PER_DOF = 20e-6, 0.05e-6  # s
 SOLID_STEP, SOLID_STEP_PER_DOF = 300e-6, 0.2e-6  # s
@@ -96,10 +96,10 @@ def _contact(study: Study) -> str:
     load = study.vehicle.static_load
     text = f"static wheel load {load / 1e3:.2f} kN; "
     try:
-        hertz = build.hertz(study)
+        hertz = contact.hertz(study)
     except InputError as error:
         points = [run for run in study.runs.values() if isinstance(run, PointRun)]
-        if any(run.law == "hertz" or run.k_r == "hertz_tangent" for run in points):
+        if any(run.law == "hertz" or "hertz" in str(run.k_r) for run in points):
             raise
         return f"{text}{error}"
     return (
@@ -114,7 +114,7 @@ def _condensation(studies: Sequence[Study]) -> float:
         CONDENSATION[b.name] * (WHOLE if b.name == "rail" and not one.solid.half else 1)
         for one in studies
         for run in one.runs
-        for b in build.bodies(one, run)
+        for b in contact.bodies(one, run)
         if not is_cached(b)
     ]
     return max(needed, default=0.0)

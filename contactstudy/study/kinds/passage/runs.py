@@ -12,6 +12,7 @@ from contactstudy.track.beam import BeamTrack
 from contactstudy.track.model import Direction
 from contactstudy.validation import (
     Above,
+    Multiples,
     Naming,
     Parameters,
     Same,
@@ -19,6 +20,7 @@ from contactstudy.validation import (
     Variants,
     When,
     complaint,
+    multiple,
 )
 from contactstudy.validation import quantities as q
 
@@ -65,10 +67,15 @@ class Run(Parameters):
 
 @dataclass(frozen=True)
 class PointRun(Run):
-    """The paper's section 3.1, or eq. (7) with ``law``.
+    """The paper's section 3.1, or another law and filter of the contact at a point.
 
-    ``k_r`` is a number, "tangent" (of the static press of the very wheel and rail that are
-    meshed, at the static load), "hertz_tangent" (of Hertz's closed form) or "rigid".
+    ``k_r`` is a number, "tangent" or "secant" (of the static press of the very wheel and rail that
+    are meshed, at the static load), "hertz_tangent" or "hertz_secant" (of Hertz's closed form), a
+    multiple of these, or "rigid". With ``hertz_constant = "press"`` Hertz's law has the press's
+    tangent at the static load; ``law = "press"`` is the press itself.
+
+    ``contact_filter`` says what the contact makes of the irregularity, see
+    `contactstudy.contact.filters` and `contactstudy.contact.bedding`.
     """
 
     solver: ClassVar[str] = "point"
@@ -82,11 +89,36 @@ class PointRun(Run):
     local_compliance: Annotated[bool, Same(BeamTrack, "element_compliance"), _BEAM] = (
         BeamTrack.element_compliance
     )
-    law: Annotated[Literal["linear", "hertz"], "contact law"] = "linear"
+    law: Annotated[
+        Literal["linear", "hertz", "press"], "contact law; the press is that of the meshed bodies"
+    ] = "linear"
     k_r: Annotated[
-        float | Literal["tangent", "hertz_tangent", "rigid"], Unit("N/m"), Above(0),
+        float | Literal["tangent", "secant", "hertz_tangent", "hertz_secant", "rigid"], Unit("N/m"),
+        Above(0), Multiples(("tangent", "secant", "hertz_tangent", "hertz_secant")),
         When("law", "linear"), "contact stiffness",
     ] = 1e11  # fmt: skip
+    hertz_constant: Annotated[
+        Literal["closed_form", "press"], When("law", "hertz"),
+        "k_H of Hertz's closed form, or with the tangent of the press",
+    ] = "closed_form"  # fmt: skip
+    contact_filter: Annotated[
+        Literal["none", "trajectory", "patch", "bedding"],
+        "r as it is, where a rigid wheel rests on it, its mean over the patch, or a Winkler bedding"
+        " over the patch",
+    ] = "none"
+    patch_filter: Annotated[
+        Literal["fixed", "following"], When("contact_filter", "patch"),
+        "the patch at the static load, or following the load",
+    ] = "fixed"  # fmt: skip
+    patch_weight: Annotated[
+        Literal["hertz", "press"] | None, When("contact_filter", "patch"),
+        "mean over Hertz's ellipse, or weights of the press; as the law if left out",
+    ] = None  # fmt: skip
+    wheel: Annotated[
+        WheelModel | None,
+        "model of the wheel: its give is in the law, its modes beside it; the study's if left out"
+        " and not modal",
+    ] = None
     direction: Annotated[Direction, Same(BeamTrack, "direction")] = BeamTrack.direction
 
     @property
@@ -100,17 +132,66 @@ class PointRun(Run):
         return self.law == "linear" and self.k_r == "rigid"
 
     @property
+    def law_of_press(self) -> bool:
+        """Whether the contact stiffness comes from the press of the meshed bodies."""
+        if self.law == "linear":
+            return isinstance(self.k_r, str) and multiple(self.k_r)[1] in ("tangent", "secant")
+        return self.law == "press" or self.hertz_constant == "press"
+
+    @property
+    def weight_of_press(self) -> bool:
+        """Whether the patch filter's weights come from the press."""
+        if self.contact_filter != "patch":
+            return False
+        return self.law_of_press if self.patch_weight is None else self.patch_weight == "press"
+
+    @property
     def stepper(self) -> str:
         """As in `Run`; a rigid contact needs numerical damping."""
         return self.integrator or ("generalised_alpha" if self.rigid else "average_acceleration")
 
+    @property
+    def presses(self) -> bool:
+        """Whether the run needs the press of the meshed bodies."""
+        return self.law_of_press or self.patch_of_press
+
+    @property
+    def patch_of_press(self) -> bool:
+        """Whether it needs more of the press than its stiffness: where the forces act."""
+        return self.weight_of_press or self.wheel == "modal"
+
+    def resolved(self) -> dict[str, Any]:
+        """As in `Run`; the wheel only where the run has its own."""
+        values = super().resolved()
+        if "patch_weight" in values:
+            values["patch_weight"] = "press" if self.weight_of_press else "hertz"
+        return values if self.wheel else {k: values[k] for k in values if k != "wheel"}
+
     def problems(self, key: Naming) -> list[str]:
-        """Lateral runs that are not possible, and a rigid contact without damping."""
-        problems = []
-        if self.rail == "solid" and self.direction == "Y":
-            problems.append(complaint(key("direction"), "Y", 'must be "Z" on the solid rail'))
-        if self.law == "hertz" and self.direction == "Y":
-            problems.append(complaint(key("direction"), "Y", 'must be "Z" with law = "hertz"'))
+        """Lateral runs that are not possible, laws that have no patch, undamped rigid contact."""
+        vertical = {
+            "on the solid rail": self.rail == "solid",
+            f'with law = "{self.law}"': self.law != "linear",
+            f'with contact_filter = "{self.contact_filter}"': self.contact_filter != "none",
+            'with wheel = "modal"': self.wheel == "modal",
+        }
+        problems = [
+            complaint(key("direction"), "Y", f'must be "Z" {where}')
+            for where, holds in vertical.items()
+            if holds and self.direction == "Y"
+        ]
+        if self.contact_filter == "bedding" and self.law != "hertz":
+            allowed = 'must be "hertz" with contact_filter = "bedding", which spreads Hertz\'s law'
+            problems.append(complaint(key("law"), self.law, allowed))
+        for name, value in (("law", "press"), ("contact_filter", "bedding")):
+            if getattr(self, name) == value:
+                problems.append(complaint(key(name), value, "is not available yet"))
+        following = self.contact_filter == "patch" and self.patch_filter == "following"
+        if following:
+            problems.append(complaint(key("patch_filter"), "following", "is not available yet"))
+        if following and self.law == "linear":
+            allowed = 'must be "hertz" or "press" with patch_filter = "following"'
+            problems.append(complaint(key("law"), self.law, allowed))
         undamped = self.stepper == "average_acceleration" or self.rho_inf > 1.0 - 1e-6
         if self.rigid and undamped:
             allowed = 'must be "generalised_alpha" with rho_inf below 1 where k_r = "rigid"'

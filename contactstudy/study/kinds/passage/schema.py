@@ -82,9 +82,9 @@ class Study:
         return any(run.needs_solid for run in self.runs.values())
 
     def presses(self, run: str) -> bool:
-        """Whether a run takes its contact stiffness from a press of the meshed bodies."""
+        """Whether a point run needs the press of the meshed bodies."""
         table = self.runs[run]
-        pressed = isinstance(table, PointRun) and table.law == "linear" and table.k_r == "tangent"
+        pressed = isinstance(table, PointRun) and table.presses
         return pressed and self.track.rail.profile_name is not None
 
     def meshes_rail(self, run: str) -> bool:
@@ -98,13 +98,14 @@ class Study:
 
     def needs_wheel_modes(self, run: str) -> bool:
         """Whether a run needs the wheel's elastic modes."""
-        return isinstance(self.runs[run], SurfaceRun) and self.wheel(run) == "modal"
+        return self.wheel(run) == "modal"
 
     def wheel(self, run: str) -> str:
         """Model of the meshed wheel in a run: its own or the study's."""
-        table = self.runs[run]
-        own = table.wheel if isinstance(table, SurfaceRun) else None
-        return own or self.solid.wheel
+        table, given = self.runs[run], self.solid.wheel
+        if isinstance(table, PointRun) and given == "modal":
+            given = "quasi-static"  # the modes are a choice of the run's
+        return table.wheel or given
 
     @property
     def has_wheel_modes(self) -> bool:
@@ -125,7 +126,11 @@ class Study:
             tables["runs"] = {
                 name: resolved(SOLVERS, run)
                 | {"time_step": self.time_step(name)}
-                | ({"wheel": self.wheel(name)} if isinstance(run, SurfaceRun) else {})
+                | (
+                    {"wheel": self.wheel(name)}
+                    if isinstance(run, SurfaceRun) or self.presses(name)
+                    else {}
+                )
                 for name, run in self.runs.items()
             }
         if self.reference:

@@ -106,13 +106,13 @@ class Solid(Parameters):
     def problems_on(self, track: Track, meshed: bool) -> list[str]:
         """What cannot be meshed on a track, by key.
 
-        Unless a run is on the ``meshed`` rail, only a contact stiffness is taken from it.
+        Unless a run needs a ``meshed`` rail, only a contact stiffness is taken from it.
         """
         problems = []
         if track.rail.profile_name is None:
             if not meshed:
-                return []  # the tangent then is Hertz's
-            allowed = 'surface contact needs a rail with a profile: "60E1"'
+                return []  # the stiffness then is Hertz's
+            allowed = 'what is meshed needs a rail with a profile: "60E1"'
             problems.append(complaint("track.rail", "given", allowed))
         if not whole(_spacing(track) / self.cell_length):
             allowed = f"must divide {_spacing(track):g} m into whole cells (m)"
