@@ -131,12 +131,12 @@ def _limits(axes: Axes, info: IrregularityInfo) -> None:
     shown = [s for s in (info.spectrum, info.estimate, info.measured) if s is not None]
     low = min(max(s.band[0], _lowest(s)) for s in shown)
     high = max(min(s.band[1], s.wavenumber[-1]) for s in shown)
-    densities = np.concatenate(
-        [s.density[(s.wavenumber >= low) & (s.wavenumber <= high) & (s.density > 0)] for s in shown]
+    inside = [(s.wavenumber >= s.band[0]) & (s.wavenumber <= s.band[1]) for s in shown]
+    found = np.concatenate(
+        [s.density[k & (s.density > 0)] for s, k in zip(shown, inside, strict=True)]
     )
-    bottom = max(densities.min(), densities.max() * 1e-10)
     axes.set_xlim(low / 1.3, high * 1.3)
-    axes.set_ylim(bottom / 3, densities.max() * 3)
+    axes.set_ylim(max(found.min(), 1e-16 * found.max()) / 3, found.max() * 3)
 
 
 def _travelled(results: StudyResults) -> tuple[float, float] | None:

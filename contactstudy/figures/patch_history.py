@@ -4,7 +4,7 @@ from matplotlib.figure import Figure
 
 from contactstudy.figures.signals import fade_end, has_signal, position, styles, values
 from contactstudy.plot.drawing import Drawing
-from contactstudy.plot.style import SHADE, new_figure
+from contactstudy.plot.style import SHADE, figure_legend, new_figure
 from contactstudy.plot.text import label, number
 from contactstudy.study.results import StudyResults
 
@@ -36,7 +36,7 @@ def _draw(results: StudyResults) -> Figure:
         ax.margins(x=0)
     axes[1].set_xlabel("Position X of the wheel (m)")
     if len(axes[0].lines) > 1:
-        axes[0].legend(loc="upper right")
+        figure_legend(figure, axes[0])
     figure.align_ylabels()
     return figure
 

@@ -11,6 +11,7 @@ from contactstudy.report.content import content
 from contactstudy.report.parameters import parameter_tables
 from contactstudy.report.quantity import fixed, percent, quantity
 from contactstudy.resources import resource
+from contactstudy.study.kind import KINDS, find_kind
 from contactstudy.study.kinds.passage.drawings import drawings
 from contactstudy.study.kinds.passage.report.abstract import GRADES, abstract, grade, papers_scheme
 
@@ -168,6 +169,17 @@ def test_abstract_tells_of_lost_contact(made):
     assert "Contact is lost at times in point." in text
 
 
+@pytest.mark.parametrize("runs", [["point"], ["tangent"], ["tangent", "hertz_timoshenko"]])
+def test_abstract_tells_of_each_run_once(made, runs):
+    study, *_ = made
+    compared = {name: study.metrics["comparisons"][name] for name in runs}
+    metrics = {**study.metrics, "comparisons": compared}
+    kept = {name: study.runs[name] for name in ("surface", *runs)}
+    text = " ".join(abstract(type(study)(**{**vars(study), "metrics": metrics, "runs": kept})))
+    assert text.count("kN apart") == len(runs)
+    assert ("lowest" in text) == ("highest" in text) == (len(runs) > 1)
+
+
 def test_abstract_of_a_study_without_runs_claims_nothing(made):
     study, *_ = made
     empty = {**vars(study), "runs": {}, "reference": None, "companions": (), "metrics": {}}
@@ -195,6 +207,11 @@ def test_template_has_no_figures_of_its_own():
     for name in ("template.typ", "blocks.typ"):
         text = resource("report", name).read_text("utf-8")
         assert not re.search(r"\d\s*(kN|MPa|%\s*of|km/h|dB)", text), name
+
+
+def test_every_table_of_a_study_has_a_title_in_the_report():
+    for kind in map(find_kind, KINDS):
+        assert set(kind.titles) == set(kind.tables)
 
 
 def test_parameters_say_whether_the_study_set_them(made):

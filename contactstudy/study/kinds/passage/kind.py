@@ -25,6 +25,8 @@ class PassageKind(Kind):
         "vehicle": "Vehicle (per wheel)",
         "journey": "Journey",
         "solid": "Solid rail and wheel",
+        "wheelset": "Wheelset",
+        "scan": "Scanned surfaces",
     }
 
     load = later(f"{_HERE}.reading:load_passage")

@@ -89,7 +89,7 @@ def _patches(results: StudyResults, side: str) -> Block:
 
 def _plot(results: StudyResults, name: str) -> Plot:
     words, axis = _LABELS[name]
-    scale = COLUMNS[name][1]
+    heading, scale, _ = COLUMNS[name]
     curves: list[Curve] = []
     for side, run in results.runs.items():
         x, y = 1e3 * run.lateral.values, scale * run[name].values
@@ -100,7 +100,7 @@ def _plot(results: StudyResults, name: str) -> Plot:
     low, high = _range(results, name, scale)
     return Plot(
         f"{words} over the lateral shift of the wheelset, from "
-        f"{number(low, 4)} to {number(high, 4)}.",
+        f"{number(low, 4)} to {number(high, 4)} {heading.rpartition(' ')[2]}.",
         "Lateral shift (mm)",
         axis,
         tuple(curves),

@@ -102,12 +102,14 @@ def _verdict(results: StudyResults) -> str:
     ordered = sorted(errors, key=lambda name: errors[name][1])
     papers = papers_scheme(results)
     told = [papers] if papers in errors else []
-    told += [name for name in (ordered[0], ordered[-1]) if name not in told]
+    told += [name for name in dict.fromkeys((ordered[0], ordered[-1])) if name not in told]
     text = f"The reference is the run {_model(results, str(results.reference))}."
     for name in told:
         total, dynamic, largest = errors[name]
         if name == papers:
             text += f" The contact force of the paper's scheme, the run {_model(results, name)},"
+        elif len(errors) == 1:
+            text += f" The contact force of the run {_model(results, name)}"
         else:
             rank = "lowest" if name == ordered[0] else "highest"
             text += (
