@@ -8,6 +8,7 @@ from .irregularity import spectrum as spectrum
 from .notebook import check as check
 from .notebook import load as load
 from .notebook import run as run
+from .notebook import sweep as sweep
 from .solids.bodies import meshed_wheel as meshed_wheel
 from .solvers.journey import Journey as Journey
 from .solvers.point import point_contact as point_contact

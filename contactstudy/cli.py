@@ -38,6 +38,17 @@ Overrides = Annotated[
         help="Override a key of the study, e.g. --set journey.speed='250 km/h'; repeatable.",
     ),
 ]
+Sweep = Annotated[
+    tuple[str, ...],
+    Parameter(
+        name="--sweep",
+        negative="",
+        help="Vary a key of the study, e.g. --sweep irregularity.seed='1 to 50'; repeatable.",
+    ),
+]
+Quick = Annotated[
+    bool, Parameter(name="--quick", negative="", help="With the values of the table [quick].")
+]
 Jobs = Annotated[int, Parameter(name=["--jobs", "-j"], help="Runs at the same time.")]
 
 
@@ -47,6 +58,8 @@ def run(
     *,
     out: Annotated[Path, Parameter(name=["--out", "-o"])],
     overrides: Overrides = (),
+    sweep: Sweep = (),
+    quick: Quick = False,
     jobs: Jobs = 2,
 ) -> None:
     """Run a study; write result.nc, metrics.json, figures/ and report.pdf.
@@ -60,11 +73,13 @@ def run(
     """
     from contactstudy.study.loading import load_study
 
-    _run(load_study(study, overrides), out, jobs)
+    _run(load_study(study, overrides, sweep=sweep, quick=quick), out, jobs, quick)
 
 
 @app.command
-def check(study: str, *, overrides: Overrides = ()) -> None:
+def check(
+    study: str, *, overrides: Overrides = (), sweep: Sweep = (), quick: Quick = False
+) -> None:
     """Validate a study; print resolved values, sizes and the expected time. Runs nothing.
 
     Parameters
@@ -75,9 +90,9 @@ def check(study: str, *, overrides: Overrides = ()) -> None:
     from contactstudy.study.loading import load_study
     from contactstudy.study.terminal import TerminalReporter, print_check
 
-    loaded = load_study(study, overrides)
+    loaded = load_study(study, overrides, sweep=sweep, quick=quick)
     with TerminalReporter(_errors()) as reporter:
-        print_check(loaded, Console(), reporter)
+        print_check(loaded, Console(), reporter, quick)
 
 
 @app.command
@@ -85,6 +100,7 @@ def reproduce(
     *names: str,
     out: Annotated[Path, Parameter(name=["--out", "-o"])] = Path("reports/out"),
     overrides: Overrides = (),
+    quick: Quick = False,
     jobs: Jobs = 2,
 ) -> None:
     """Run the studies that make the paper's figures, by default the main comparison.
@@ -99,11 +115,12 @@ def reproduce(
     from contactstudy.study.loading import load_study
 
     main_study = "point_vs_surface"
-    loaded = [load_study(name, overrides) for name in dict.fromkeys(names or (main_study,))]
+    chosen = dict.fromkeys(names or (main_study,))
+    loaded = [load_study(name, overrides, quick=quick) for name in chosen]
     folders = [out if study.name == main_study else out / study.name for study in loaded]
     _each_its_own(loaded, folders)
     for study, folder in zip(loaded, folders, strict=True):
-        _run(study, folder, jobs)
+        _run(study, folder, jobs, quick)
 
 
 @app.command
@@ -227,13 +244,16 @@ def cache(
         print(store.summary())
 
 
-def _run(study: Study, out: Path, jobs: int) -> None:
+def _run(study: Study, out: Path, jobs: int, quick: bool) -> None:
     from contactstudy.driver import run_study
     from contactstudy.study.terminal import TerminalReporter, print_results
 
     with TerminalReporter(_errors()) as reporter:
-        results = run_study(study, out, jobs, reporter)
+        results = run_study(study, out, jobs, reporter, quick)
     print_results(results, out, Console())
+    if failures := results.failures:
+        told = [f"{title}: {reason}" for title, reason in failures.items()]
+        raise ContactStudyError("\n".join([f"{len(told)} variants failed", *told]))
 
 
 def _each_its_own(studies: Sequence[Study], folders: Sequence[Path]) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 from contactstudy.exceptions import InputError
@@ -10,7 +11,9 @@ from contactstudy.files import ensure_writable, file_digest
 from contactstudy.report import write_report
 from contactstudy.reporter import Quiet, Reporter
 from contactstudy.store import Store
-from contactstudy.study.compute import compute
+from contactstudy.study.axes.collect import collect_swept
+from contactstudy.study.axes.dataset import CSV_FILE, write_csv
+from contactstudy.study.compute import Found, compute
 from contactstudy.study.kind import Study, find_kind
 from contactstudy.study.loading import load_companions
 from contactstudy.study.plan import RUNS, Plan, collect, plan_study
@@ -20,14 +23,19 @@ FINISHED = "finished"
 
 
 def run_study(
-    study: Study, out_dir: str | Path, jobs: int = 2, reporter: Reporter | None = None
+    study: Study,
+    out_dir: str | Path,
+    jobs: int = 2,
+    reporter: Reporter | None = None,
+    quick: bool = False,
 ) -> StudyResults:
     """Run a study and write results, figures and report into `out_dir`.
 
     What is finished there already is taken as it is; when everything is, so are the figures and
     the report.
 
-    `jobs` pieces of work are computed at once, each in another process.
+    `jobs` pieces of work are computed at once, each in another process. With `quick` companions
+    have the values of their tables ``[quick]``.
 
     Raises
     ------
@@ -37,7 +45,7 @@ def run_study(
         When a run broke down; the others are finished and kept.
     """
     reporter, out_dir = reporter or Quiet(), Path(out_dir)
-    plan = _planned(study, out_dir, reporter)
+    plan = _planned(study, out_dir, reporter, quick)
     if (done := _finished_results(plan)) is not None:
         reporter.note(f"{out_dir}: all results are there and up to date")
         return done
@@ -45,17 +53,23 @@ def run_study(
     with reporter.stage("writing the results"):
         written = _write(results, out_dir)
     written += render(results, out_dir, reporter)
+    if results.failures:
+        return results  # they are tried again the next time
     sums = {p.relative_to(out_dir).as_posix(): file_digest(p) for p in written}
     Store(out_dir / RUNS).save(FINISHED, plan.key(), sums)
     return results
 
 
 def compute_study(
-    study: Study, folder: Path, jobs: int = 2, reporter: Reporter | None = None
+    study: Study,
+    folder: Path,
+    jobs: int = 2,
+    reporter: Reporter | None = None,
+    quick: bool = False,
 ) -> StudyResults:
     """As `run_study`, but only the finished runs are kept, in ``folder/runs``."""
     reporter = reporter or Quiet()
-    return _computed(_planned(study, folder, reporter), jobs, reporter)
+    return _computed(_planned(study, folder, reporter, quick), jobs, reporter)
 
 
 def render(results: StudyResults, out_dir: Path, reporter: Reporter) -> list[Path]:
@@ -66,10 +80,10 @@ def render(results: StudyResults, out_dir: Path, reporter: Reporter) -> list[Pat
         return [*written, write_report(results, out_dir)]
 
 
-def _planned(study: Study, folder: Path, reporter: Reporter) -> Plan:
+def _planned(study: Study, folder: Path, reporter: Reporter, quick: bool) -> Plan:
     ensure_writable(folder)
     with reporter.stage("reading the study"):
-        plan = plan_study(study, folder, tuple(load_companions(study)))
+        plan = plan_study(study, folder, tuple(load_companions(study, quick)))
     for warning in plan.warnings:
         reporter.note(warning)
     return plan
@@ -78,13 +92,21 @@ def _planned(study: Study, folder: Path, reporter: Reporter) -> Plan:
 def _computed(plan: Plan, jobs: int, reporter: Reporter) -> StudyResults:
     found = compute(plan, jobs, reporter)
     with reporter.stage("comparing the runs"):
-        return collect(plan, found)
+        return _collected(plan, found)
+
+
+def _collected(plan: Plan, found: Found) -> StudyResults:
+    own = collect_swept(plan, found) if plan.swept else collect(plan, found.pieces)
+    return replace(own, companions=tuple(_collected(c, found) for c in plan.companions))
 
 
 def _write(results: StudyResults, out_dir: Path) -> list[Path]:
     """Write labelled results, and the kind's further files, of a study and its companions."""
     written = [*write_results(results, out_dir)]
-    written += find_kind(results.kind).write_files(results, out_dir)
+    if results.swept:
+        written.append(write_csv(results.designs, out_dir / CSV_FILE))
+    else:
+        written += find_kind(results.kind).write_files(results, out_dir)
     for companion in results.companions:
         written += _write(companion, out_dir / companion.name)
     return written

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rich.console import Console
 
@@ -17,8 +17,11 @@ from contactstudy.study.loading import load_study
 from contactstudy.study.results import StudyResults
 from contactstudy.study.terminal import TerminalReporter, print_check
 
+if TYPE_CHECKING:
+    import xarray as xr
 
-def load(study: str | Path, values: Mapping[str, Any] | None = None) -> Any:
+
+def load(study: str | Path, values: Mapping[str, Any] | None = None, *, quick: bool = False) -> Any:
     """Read a study file of any kind and check it; the study is frozen.
 
     Parameters
@@ -28,13 +31,15 @@ def load(study: str | Path, values: Mapping[str, Any] | None = None) -> Any:
     values : mapping, optional
         Dotted key -> value in place of the file's, as in a study file:
         ``{"irregularity.seed": 2, "journey.speed": "200 km/h"}``.
+    quick : bool
+        With the values of the file's table ``[quick]``.
 
     Raises
     ------
     InputError
         Listing every problem.
     """
-    return load_study(study, values or {})
+    return load_study(study, values or {}, quick=quick)
 
 
 def check(study: str | Path | Study, values: Mapping[str, Any] | None = None) -> None:
@@ -60,6 +65,7 @@ def run(
     *,
     out: str | Path | None = None,
     jobs: int = 2,
+    quick: bool = False,
 ) -> StudyResults:
     """Run a study.
 
@@ -75,11 +81,13 @@ def run(
         runs are kept in the user's cache folder.
     jobs : int
         Runs at the same time, each in a process of its own.
+    quick : bool
+        With the values of the table ``[quick]``, of a file and of companions.
 
     Returns
     -------
     StudyResults
-        Its `runs` are labelled datasets; shown as one tree.
+        Its `runs` are labelled datasets, of a study with axes its `designs`; shown as one tree.
 
     Raises
     ------
@@ -88,16 +96,56 @@ def run(
     NumericalError
         When a run broke down; the others are finished and kept.
     """
-    made = _study(study, values)
+    return _run(_study(study, values, quick), out, jobs, quick)
+
+
+def sweep(
+    study: str | Path,
+    series: Mapping[str, Any],
+    values: Mapping[str, Any] | None = None,
+    *,
+    out: str | Path | None = None,
+    jobs: int = 2,
+) -> xr.Dataset:
+    """Vary keys of a study.
+
+    Parameters
+    ----------
+    study : str or Path
+    series : mapping
+        Dotted key -> its values, as in the table ``[sweep]``:
+        ``{"irregularity.seed": "1 to 50", "journey.speed": ["200 km/h", "300 km/h"]}``; also
+        ``combine``, ``samples``, ``seed`` and ``keep``. They replace those of the file.
+    values, out, jobs
+        As of `run`.
+
+    Returns
+    -------
+    xarray.Dataset
+        What was measured, labelled with the varied keys; nan and ``failure`` where a variant
+        failed.
+
+    Raises
+    ------
+    InputError
+        Listing every impossible variant, before anything runs.
+    """
+    results = _run(load_study(study, values or {}, sweep=series), out, jobs, False)
+    return next(iter(results.designs.values()))
+
+
+def _run(study: Study, out: str | Path | None, jobs: int, quick: bool) -> StudyResults:
     with TerminalReporter(Console(stderr=True)) as reporter:
         if out is None:
-            return compute_study(made, cache_directory(), jobs, reporter)
-        return run_study(made, out, jobs, reporter)
+            return compute_study(study, cache_directory(), jobs, reporter, quick)
+        return run_study(study, out, jobs, reporter, quick)
 
 
-def _study(study: str | Path | Study, values: Mapping[str, Any] | None) -> Study:
+def _study(
+    study: str | Path | Study, values: Mapping[str, Any] | None, quick: bool = False
+) -> Study:
     if isinstance(study, str | Path):
-        made: Study = load(study, values)
+        made: Study = load(study, values, quick=quick)
         return made
     if values:
         raise InputError("values go with a study file; use dataclasses.replace on a study")

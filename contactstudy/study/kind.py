@@ -44,7 +44,9 @@ Cost = Mapping[str, Any]
 class Study(Protocol):
     """A study file that has been read and found possible; frozen and picklable."""
 
-    kind: ClassVar[str]
+    @property
+    def kind(self) -> str:
+        """Name of its kind."""
 
     @property
     def name(self) -> str:
@@ -107,6 +109,8 @@ class Work:
     long: bool = False
     #: Whether it takes less time than a process takes to start, and little memory.
     light: bool = False
+    #: Pieces with the same text here, of any variants, may be computed together; alone if empty.
+    batch: str = ""
 
 
 @dataclass(frozen=True)
@@ -139,6 +143,13 @@ class Kind:
     #: ``function(study, name, progress)``. The module's code and all that it imports is part of
     #: what is computed, so it imports nothing that draws or prints.
     computing: str
+    #: The same for pieces of one batch, which share what is dear:
+    #: ``function([(study, name), ...], progress)`` gives a value, or the error, of each in order.
+    #: Values do not depend on how many there are. One after another without it.
+    batching: ClassVar[str] = ""
+    #: "module:function" of what is measured of a variant of a study with axes:
+    #: ``function(study, pieces by name)`` gives what `contactstudy.study.axes.measured` describes.
+    measuring: ClassVar[str] = "contactstudy.study.axes.measured:extremes"
     #: How what it returns is kept: a dataset, or plain data (small ones are quicker so) for None.
     form: ClassVar[Form | None] = DATASET
     #: Table of the study file -> its model: for reading, ``--set`` and the reference of keys.
@@ -163,6 +174,10 @@ class Kind:
     def work(self, study: Any, inputs: Inputs) -> Sequence[Work]:
         """The pieces of work."""
         raise NotImplementedError
+
+    def seconds(self, study: Any, name: str) -> float:
+        """Time that a piece of work will take, about; 0 where nobody knows."""
+        return 0.0
 
     def admit(self, study: Any, names: Sequence[str], reporter: Reporter) -> None:
         """Refuse pieces of work that are known to be impossible, before any is computed."""

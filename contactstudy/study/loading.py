@@ -4,19 +4,23 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Mapping
+from copy import deepcopy
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from contactstudy.exceptions import InputError
 from contactstudy.resources import resource
-from contactstudy.study.kind import kind_of_file
-from contactstudy.study.overrides import Overrides
+from contactstudy.study.axes.swept import Source, Swept
+from contactstudy.study.axes.table import TABLES, apply_quick, read_designs
+from contactstudy.study.kind import Kind, kind_of_file
+from contactstudy.study.overrides import Overrides, read_texts
 from contactstudy.validation import complaint, did_you_mean, raise_if
 
 # of a study's results, beside which those of its companions lie
 _TAKEN = (
     "runs", "figures", "fields", "result.nc", "metrics.json", "report.pdf", "patches.csv",
+    "sweep.csv",
 )  # fmt: skip
 
 
@@ -48,7 +52,14 @@ def find_study(study: str | Path) -> Path:
     )
 
 
-def load_study(study: str | Path, overrides: Overrides = (), main: Any = None) -> Any:
+def load_study(
+    study: str | Path,
+    overrides: Overrides = (),
+    main: Any = None,
+    *,
+    sweep: Overrides = (),
+    quick: bool = False,
+) -> Any:
     """Read a study file of any kind, apply overrides, and check it.
 
     Parameters
@@ -56,15 +67,21 @@ def load_study(study: str | Path, overrides: Overrides = (), main: Any = None) -
     study : str or Path
         A path, or the name of a shipped study.
     overrides : iterable of str, or mapping
-        See `contactstudy.study.overrides`.
+        See `contactstudy.study.overrides`. A key that the file sweeps or refines stays at the
+        value given here.
     main : Study, optional
         The study that this one accompanies: a passage takes track, vehicle, journey and solid
         from it where the file has no such table, so that both are about the same wheel and rail.
+    sweep : iterable of str, or mapping
+        Series of further keys, in place of the file's, as in the table ``[sweep]``.
+    quick : bool
+        With the values of the table ``[quick]``.
 
     Returns
     -------
     Study
-        Of the kind that the file's tables tell, see `contactstudy.study.kind`.
+        Of the kind that the file's tables tell, see `contactstudy.study.kind`; a `Swept` one with
+        axes.
 
     Raises
     ------
@@ -79,12 +96,59 @@ def load_study(study: str | Path, overrides: Overrides = (), main: Any = None) -
     except OSError as error:
         raise InputError(f"{path}: cannot be read ({error.strerror})") from error
     kind = kind_of_file(data)
-    same = main is not None and main.kind == kind.name
-    return kind.load(path, data, overrides, main if same else None)
+    main = main if main is not None and main.kind == kind.name else None
+    given, problems = read_texts(overrides, "--set", kind.tables, kind.inner_tables)
+    series, wrong = read_texts(sweep, "--sweep", {}, {})
+    return _with_axes(path, data, kind, main, (given, series), problems + wrong, quick)
 
 
-def load_companions(study: Any) -> list[Any]:
+def _with_axes(
+    path: Path,
+    data: dict[str, Any],
+    kind: Kind,
+    main: Any,
+    options: tuple[dict[str, Any], dict[str, Any]],
+    problems: list[str],
+    quick: bool,
+) -> Any:
+    """The study that a file's content describes, with its axes if it has any.
+
+    `options` are values and series that stand in place of the file's; further `problems` are
+    included.
+    """
+    given, sweep = options
+    axes = {name: data.pop(name) for name in TABLES if name in data}
+    raise_if(complaint(n, t, "must be a table") for n, t in axes.items() if not isinstance(t, dict))
+    quickly = apply_quick(axes if quick else deepcopy(axes), axes.pop("quick", {}))
+    fixed = (quickly if quick else {}) | given
+    for name in ("sweep", "refine"):
+        axes[name] = {k: v for k, v in axes.get(name, {}).items() if k not in fixed | sweep}
+    axes["sweep"] |= sweep
+    source = Source(kind, path, deepcopy(data), fixed, None if main is None else base_of(main))
+    designs, keep, wrong = read_designs(data | axes, kind, path.parent)
+    try:
+        study = source.load({})
+        if quickly and not quick:
+            source.load(quickly)
+    except InputError as error:
+        problems = [*problems, *error.problems]
+    raise_if(problems + wrong)
+    if not designs:
+        return study
+    made = Swept(study, tuple(designs), source, keep)
+    _ = made.variants  # impossible ones are refused
+    return made
+
+
+def base_of(study: Any) -> Any:
+    """A study without its axes."""
+    return study.study if isinstance(study, Swept) else study
+
+
+def load_companions(study: Any, quick: bool = False) -> list[Any]:
     """Studies that accompany a study, on its track; their own companions are left out.
+
+    With `quick` they have the values of their tables ``[quick]``.
 
     Raises
     ------
@@ -96,7 +160,8 @@ def load_companions(study: Any) -> list[Any]:
     taken[study.name] = "the study that it accompanies"
     for name in study.companions:
         try:
-            made = replace(load_study(name, main=study), companions=())
+            made = load_study(name, main=study, quick=quick)
+            made = made.alone() if isinstance(made, Swept) else replace(made, companions=())
         except InputError as error:
             problems += [f"companion {name}: {problem}" for problem in error.problems]
             continue

@@ -30,9 +30,8 @@ def override(
     `tables` are those of the file, `groups` tables in tables, "runs" for ``[runs.NAME]``. Returns
     complaints.
     """
-    groups, problems = groups or {}, list[str]()
-    if not isinstance(values, Mapping):
-        values, problems = _read(values, tables, groups)
+    groups = groups or {}
+    values, problems = read_texts(values, "--set", tables, groups)
     for key, value in values.items():
         problems += _put(data, key, value)
     given = set(values)
@@ -59,25 +58,28 @@ def _leave_out(data: Any, table: Table, path: str, given: set[str]) -> None:
             del data[key]
 
 
-def _read(
-    texts: Iterable[str], tables: Mapping[str, Table], groups: Mapping[str, Table]
+def read_texts(
+    given: Overrides, option: str, tables: Mapping[str, Table], groups: Mapping[str, Table]
 ) -> tuple[dict[str, Any], list[str]]:
-    """Values of the keys that a command line gives."""
+    """Values of dotted keys that an option of the command line, or a mapping, gives."""
+    if isinstance(given, Mapping):
+        return dict(given), []
     values, problems = dict[str, Any](), []
-    for text in texts:
-        key, equals, given = (part.strip() for part in text.partition("="))
+    for text in given:
+        key, equals, written = (part.strip() for part in text.partition("="))
         parts = key.split(".")
         if not equals or not all(parts):
             problems.append(
-                f"--set {text}: must be KEY=VALUE with a dotted key, e.g. journey.speed='250 km/h'"
+                f"{option} {text}: must be KEY=VALUE with a dotted key, "
+                "e.g. journey.speed='250 km/h'"
             )
             continue
-        value = _value(given)
+        value = _value(written)
         found = (tables if len(parts) == 2 else groups).get(parts[0])
         if found is not None and not isinstance(value, str):
             entry = entries(found).get(parts[-1])
             if entry is not None and entry.parameter.only_text:
-                value = given  # 60E1 is a profile, not 600
+                value = written  # 60E1 is a profile, not 600
         values[key] = value
     return values, problems
 

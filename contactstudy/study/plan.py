@@ -2,39 +2,52 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from contactstudy.exceptions import InputError
 from contactstudy.provenance import provenance, versions
 from contactstudy.store import Kept, Store, store_key
+from contactstudy.study.axes.swept import Swept, raise_grouped, variants
 from contactstudy.study.kind import Inputs, Kind, Study, Work, find_kind
 from contactstudy.study.results import StudyResults
 
 RUNS = "runs"
 """Folder of the output in which finished pieces of work are kept."""
+FAILED = "failed"
+"""Entry of a piece of work that failed."""
 
 
 @dataclass(frozen=True, eq=False)
 class Piece:
-    """A piece of work of one variant of a study; the study as it is, is the variant ""."""
+    """A piece of work; variants to which the same goes in share it."""
 
-    variant: str
     study: Study
     work: Work
     #: Hash of everything that goes into it, code included.
     key: str
+    #: The first variant that needs it, for the user; "" for a study without axes.
+    title: str = ""
 
     @property
     def label(self) -> str:
-        """Distinct among all pieces of a study."""
-        return run_label(self.variant, self.work.name)
+        """For messages; distinct among all pieces of a study."""
+        return f"{self.work.name} ({self.title})" if self.title else self.work.name
 
-    @property
-    def entry(self) -> str:
-        """Its name in the store."""
-        return self.label.replace("/", "-")
+
+@dataclass(frozen=True, eq=False)
+class Planned:
+    """A variant of a study and its pieces of work."""
+
+    name: str
+    title: str
+    study: Study
+    #: By the name of the work.
+    pieces: Mapping[str, Piece]
+    #: Hash of all that goes into what is measured of it; "" for a study without axes.
+    key: str = ""
 
 
 @dataclass(frozen=True)
@@ -45,8 +58,18 @@ class Plan:
     kind: Kind
     inputs: Inputs
     out_dir: Path
-    pieces: tuple[Piece, ...]
+    variants: Mapping[str, Planned]
     companions: tuple[Plan, ...] = ()
+
+    @property
+    def swept(self) -> bool:
+        """Whether the study has axes."""
+        return isinstance(self.study, Swept)
+
+    @property
+    def pieces(self) -> list[Piece]:
+        """All pieces of work, each once."""
+        return list(dict.fromkeys(p for v in self.variants.values() for p in v.pieces.values()))
 
     @property
     def all(self) -> tuple[Plan, ...]:
@@ -59,33 +82,34 @@ class Plan:
         return Store(self.out_dir / RUNS, self.kind.form)
 
     @property
+    def measures(self) -> Store:
+        """Where is kept what was measured of variants, and why pieces failed."""
+        return Store(self.out_dir / RUNS)
+
+    @property
     def warnings(self) -> tuple[str, ...]:
         """What the user should know, each once."""
         return tuple(dict.fromkeys(w for p in self.all for w in p.inputs.warnings))
 
     def kept(self, piece: Piece) -> Kept:
         """A finished piece of work."""
-        return self.store.load(piece.entry, piece.key)
+        return self.store.load(piece.work.name, piece.key)
+
+    def whole(self, piece: Piece) -> Kept:
+        """Whether a piece of work is finished; its value is not read."""
+        return self.store.whole(piece.work.name, piece.key)
 
     def key(self) -> str:
         """Hash of everything that goes into the results, drawing and printing included."""
         texts = [self.study.name, self.study.title, self.study.description]
         own = [texts, self.inputs.config, dict(self.inputs.files), dict(versions())]
+        if self.swept:
+            own.append(sorted(v.key for v in self.variants.values()))
         return store_key([own, [companion.key() for companion in self.companions]], None)
 
 
-def run_label(variant: str, run: str) -> str:
-    """Name of a run of a variant among all results of a study."""
-    return f"{variant}/{run}" if variant else run
-
-
-def variants(study: Study) -> Iterator[tuple[str, Study]]:
-    """Variants of a study, each a study of its kind: one as yet, the study as it is."""
-    yield "", study
-
-
 def plan_study(study: Study, out_dir: Path, companions: tuple[Study, ...] = ()) -> Plan:
-    """Read a study's inputs and its companions'.
+    """Read a study's inputs, those of its variants, and its companions'.
 
     Raises
     ------
@@ -93,30 +117,66 @@ def plan_study(study: Study, out_dir: Path, companions: tuple[Study, ...] = ()) 
         When an input cannot be used.
     """
     kind = find_kind(study.kind)
-    inputs = kind.read_inputs(study)
-    pieces = []
-    for variant, one in variants(study):
-        read = inputs if one is study else kind.read_inputs(one)
-        for work in kind.work(one, read):
-            key = store_key(
-                [work.name, work.inputs, dict(read.files)], kind.computing.partition(":")[0]
-            )
-            pieces.append(Piece(variant, one, work, key))
+    swept = isinstance(study, Swept)
+    inputs = _read(kind, study)
+    found, shared = dict[str, Planned](), dict[tuple[str, str], Piece]()
+    problems = dict[str, list[str]]()
+    for name, variant in variants(study).items():
+        try:
+            read = kind.read_inputs(variant.study) if swept else inputs
+        except InputError as error:
+            for problem in error.problems:
+                problems.setdefault(problem, []).append(variant.title)
+            continue
+        pieces = {}
+        for work in kind.work(variant.study, read):
+            key = store_key([work.name, work.inputs, dict(read.files)], _module(kind.computing))
+            made = Piece(variant.study, work, key, variant.title)
+            pieces[work.name] = shared.setdefault((work.name, key), made)
+        key = ""
+        if swept:
+            keys = {n: p.key for n, p in pieces.items()}
+            key = store_key([read.config, keys], _module(kind.measuring))
+        found[name] = Planned(name, variant.title, variant.study, pieces, key)
+    raise_grouped(problems)
     others = tuple(plan_study(c, out_dir / c.name) for c in companions)
-    return Plan(study, kind, inputs, out_dir, tuple(pieces), others)
+    return Plan(study, kind, inputs, out_dir, found, others)
+
+
+def _read(kind: Kind, study: Study | Swept) -> Inputs:
+    """Inputs of a study; of one with axes those of the study as its file has it."""
+    if not isinstance(study, Swept):
+        return kind.read_inputs(study)
+    read = kind.read_inputs(study.study)
+    config = dict(read.config) | study.axes_config()
+    return Inputs(config, read.files, read.warnings, seed=read.seed, mesh=read.mesh)
+
+
+def _module(place: str) -> str:
+    return place.partition(":")[0]
 
 
 def collect(plan: Plan, found: Mapping[Piece, Kept]) -> StudyResults:
-    """Finished pieces of work, their comparison and everything else that the report needs."""
-    study, kind, inputs = plan.study, plan.kind, plan.inputs
-    runs, costs = dict[str, Any](), dict[str, Mapping[str, Any]]()
-    for variant, one in variants(study):
-        own = [p for p in plan.pieces if p.variant == variant]
-        made = kind.collect(one, {p.work.name: found[p].value for p in own})
-        runs |= {run_label(variant, name): data for name, data in made.items()}
-        costs |= {p.label: found[p].about for p in own}
+    """Finished pieces of work of a study without axes, compared, with all that is reported."""
+    (variant,) = plan.variants.values()
+    values = {name: found[piece].value for name, piece in variant.pieces.items()}
+    costs = {name: found[piece].about for name, piece in variant.pieces.items()}
+    runs = plan.kind.collect(variant.study, values)
+    return made_results(
+        plan,
+        runs=runs,
+        metrics=plan.kind.metrics(plan.study, runs, costs),
+        groups=plan.inputs.groups(),
+    )
+
+
+def made_results(
+    plan: Plan, runs: Mapping[str, Any], metrics: Mapping[str, Any], groups: Mapping[str, Any]
+) -> StudyResults:
+    """Results of a plan without those of its companions."""
+    study, inputs = plan.study, plan.inputs
     return StudyResults(
-        kind=kind.name,
+        kind=plan.kind.name,
         name=study.name,
         title=study.title,
         description=study.description,
@@ -124,8 +184,7 @@ def collect(plan: Plan, found: Mapping[Piece, Kept]) -> StudyResults:
         units=study.units(),
         runs=runs,
         reference=study.reference,
-        metrics=kind.metrics(study, runs, costs),
-        groups=inputs.groups(),
+        metrics=metrics,
+        groups=groups,
         provenance=provenance(inputs.seed, plan.key(), inputs.mesh(), dict(inputs.files)),
-        companions=tuple(collect(companion, found) for companion in plan.companions),
     )

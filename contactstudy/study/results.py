@@ -6,6 +6,7 @@ Layout of an output directory::
     metrics.json    sizes, times, memory and norms
     figures/        *.pdf and *.png
     report.pdf
+    sweep.csv       what was measured of each variant of a study with axes
     runs/           the store of single pieces of work (see `contactstudy.store`)
     <companion>/    a companion study, laid out the same way
 
@@ -59,6 +60,25 @@ class StudyResults:
     provenance: Mapping[str, Any] = field(default_factory=dict)
     #: Studies whose results stand in the same report.
     companions: tuple[StudyResults, ...] = ()
+
+    @property
+    def designs(self) -> dict[str, xr.Dataset]:
+        """What was measured of the variants of a study with axes, a dataset a design."""
+        return {name: data for name, data in self.groups.items() if "design" in data.attrs}
+
+    @property
+    def swept(self) -> bool:
+        """Whether the study has axes; then it has no runs of its own."""
+        return bool(self.designs)
+
+    @property
+    def failures(self) -> dict[str, str]:
+        """Variant, told by its values, -> why it could not be computed; of companions too."""
+        own = self.metrics.get("variants", {}).values()
+        found = {v["title"]: v["failure"] for v in own if "failure" in v}
+        for companion in self.companions:
+            found |= {f"{companion.name}: {k}": v for k, v in companion.failures.items()}
+        return found
 
     @property
     def tree(self) -> xr.DataTree:

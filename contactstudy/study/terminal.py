@@ -23,9 +23,13 @@ from rich.table import Table
 from rich.text import Text
 
 from contactstudy.reporter import Reporter
+from contactstudy.study.axes.swept import Swept
+from contactstudy.study.axes.terminal import check_swept, summary
 from contactstudy.study.kind import Study, find_kind
-from contactstudy.study.loading import load_companions
+from contactstudy.study.loading import base_of, load_companions
 from contactstudy.study.results import StudyResults
+
+_LONG = 12  # values of a list
 
 
 class TerminalReporter:
@@ -93,13 +97,14 @@ class TerminalReporter:
 
 
 def print_results(results: StudyResults, out_dir: Path, console: Console) -> None:
-    """Print what the kind of study shows of its results, and where everything is."""
-    for item in find_kind(results.kind).summary(results):
+    """Print what the kind of study shows of its results, or its axes, and where everything is."""
+    shown = summary if results.swept else find_kind(results.kind).summary
+    for item in shown(results):
         console.print(item)
     console.print(f"results, figures and report: {out_dir}", markup=False, soft_wrap=True)
 
 
-def print_check(study: Study, console: Console, reporter: Reporter) -> None:
+def print_check(study: Study, console: Console, reporter: Reporter, quick: bool = False) -> None:
     """Print the resolved values of a study and what it will need; runs nothing.
 
     Raises
@@ -108,9 +113,11 @@ def print_check(study: Study, console: Console, reporter: Reporter) -> None:
         When an input file or a companion's study file cannot be used.
     """
     # whatever may be refused comes before the first line
-    studies = (study, *load_companions(study))
+    studies = [base_of(one) for one in (study, *load_companions(study, quick))]
     inputs = [find_kind(one.kind).read_inputs(one) for one in studies]
-    needs = find_kind(study.kind).check(study, studies[1:], reporter)
+    needs = [*find_kind(study.kind).check(studies[0], studies[1:], reporter)]
+    if isinstance(study, Swept):
+        needs += check_swept(study)
     console.print(Text(study.title, "bold"), f"({study.name})")
     if study.description:
         console.print(" ".join(study.description.split()), markup=False)
@@ -137,6 +144,8 @@ def _flat(tables: Mapping[str, Any], path: str = "") -> Iterator[tuple[str, Any]
 def _text(value: Any) -> str:
     if isinstance(value, float):
         return f"{value:.10g}"
+    if isinstance(value, list) and len(value) > _LONG:
+        return f"{_text(value[0])}, {_text(value[1])} ... {_text(value[-1])} ({len(value)} values)"
     if isinstance(value, list):
         return ", ".join(_text(item) for item in value)
     return str(value)

@@ -199,16 +199,16 @@ def test_a_missing_figure_or_report_is_made_again_from_finished_runs(short, out,
 
 
 def test_a_changed_value_computes_only_what_it_concerns(short, out):
-    first = {p.name for p in (out / "runs").glob("*.nc")}
+    first = {p.name for p in (out / "runs").glob("*.npz")}
     setting = "runs.point.k_r=hertz_tangent"
     assert cli.main(["run", str(short), "--out", str(out), "--set", setting]) == 0
-    new = {p.name for p in (out / "runs").glob("*.nc")} - first
+    new = {p.name for p in (out / "runs").glob("*.npz")} - first
     assert len(new) == 1 and new.pop().startswith("point-")
 
 
 def test_a_damaged_run_is_found_out_and_computed_again(capfd, short, out):
     reference = (out / "result.nc").read_bytes()
-    damaged = next((out / "runs").glob("hertz-*.nc"))
+    damaged = next((out / "runs").glob("hertz-*.npz"))
     content = bytearray(damaged.read_bytes())
     content[len(content) // 2] ^= 0xFF
     damaged.write_bytes(content)
@@ -224,10 +224,10 @@ def test_a_run_that_breaks_down_keeps_the_others(capfd, short, tmp_path, monkeyp
         "from contactstudy.exceptions import NumericalError\n"
         "from contactstudy.study import compute\n"
         "execute = compute.execute\n"
-        "def breaking(computing, study, run, *rest):\n"
-        "    if run == 'point':\n"
+        "def breaking(computing, batching, pieces, progress):\n"
+        "    if pieces[0][1] == 'point':\n"
         "        raise NumericalError('step 7 at X = 1.3 m: the force is not finite')\n"
-        "    execute(computing, study, run, *rest)\n"
+        "    return execute(computing, batching, pieces, progress)\n"
     )
     monkeypatch.syspath_prepend(str(tmp_path))
     breaking = importlib.import_module("breaking")
@@ -237,7 +237,7 @@ def test_a_run_that_breaks_down_keeps_the_others(capfd, short, tmp_path, monkeyp
     err = capfd.readouterr().err
     assert "run point: step 7 at X = 1.3 m: the force is not finite" in err
     assert "finished runs are kept" in err and "Traceback" not in err
-    assert [p.name[:6] for p in (out / "runs").glob("*.nc")] == ["hertz-"]
+    assert [p.name[:6] for p in (out / "runs").glob("*.npz")] == ["hertz-"]
     assert not (out / "result.nc").exists()
 
 
@@ -264,7 +264,7 @@ def test_interrupt_leaves_whole_files_and_the_next_call_goes_on(short, tmp_path)
     assert "interrupted" in err and "Traceback" not in err and err.count("\n") == 1
     left = sorted(p.name for p in out.rglob("*") if p.is_file())
     assert len(left) == 2 and all(name.startswith("quick-") for name in left)
-    path = next(out.glob("runs/quick-*.nc"))
+    path = next(out.glob("runs/quick-*.npz"))
     kept = Store(path.parent, DATASET).load(*path.stem.rsplit("-", 1))
     assert kept.damage == "" and isinstance(kept.value, xr.Dataset)
     assert np.all(np.isfinite(kept.value.contact_force))

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
+from contactstudy.exceptions import ContactStudyError
 from contactstudy.executor import Progress, Task
 from contactstudy.solids.cache import CachedBody, cached, is_cached
 from contactstudy.solvers import observers
@@ -12,16 +14,18 @@ from contactstudy.study.kinds.passage import build, contact
 from contactstudy.study.kinds.passage.roughness import irregularity_of
 from contactstudy.study.kinds.passage.runs import PointRun, SurfaceRun
 from contactstudy.study.kinds.passage.schema import Study
+from contactstudy.study.kinds.passage.twins import untwinned
 
 if TYPE_CHECKING:
     import xarray as xr
 
 
 def execute_run(study: Study, run: str, progress: Progress | None = None) -> xr.Dataset:
-    """Build the domain objects of a run, call its solver, return its dataset.
+    """Build the domain objects of a run or of its smooth twin, call its solver.
 
     `progress` is called with steps done and steps in all.
     """
+    study, run = untwinned(study, run)
     table = study.runs[run]
     if isinstance(table, SurfaceRun):
         return _surface(study, run, table, progress)
@@ -68,8 +72,24 @@ def _reports(progress: Progress | None) -> tuple[Observer, ...]:
     return () if progress is None else (observers.ReportProgress(progress),)
 
 
+def execute_batch(
+    runs: Sequence[tuple[Study, str]], progress: Progress | None = None
+) -> list[xr.Dataset | ContactStudyError]:
+    """As `execute_run`, of runs that share what is dear; of each its dataset, or its error."""
+    found: list[xr.Dataset | ContactStudyError] = []
+    for done, (study, run) in enumerate(runs):
+        try:
+            found.append(execute_run(study, run))
+        except ContactStudyError as error:
+            found.append(error)
+        if progress is not None:
+            progress(done + 1, len(runs))
+    return found
+
+
 def condensing(study: Study, run: str) -> list[Task]:
     """Condensing the bodies of a run that the cache does not have, and their press after them."""
+    study, run = untwinned(study, run)
     needed = [body for body in contact.bodies(study, run) if not is_cached(body)]
     names = [_making(body) for body in needed]
     return [

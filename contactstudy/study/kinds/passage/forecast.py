@@ -14,6 +14,7 @@ from contactstudy.solids.cache import is_cached
 from contactstudy.study.kinds.passage import build, contact
 from contactstudy.study.kinds.passage.runs import PointRun
 from contactstudy.study.kinds.passage.schema import Study
+from contactstudy.study.kinds.passage.twins import untwinned
 from contactstudy.track.beam import BeamTrack, RailTheory
 from contactstudy.track.model import Direction, DiscreteSupports, Slab, Track
 
@@ -65,6 +66,12 @@ def solid_dofs(study: Study, track: Track) -> int:
         below *= 1 + whole  # vertical, and of a whole section also lateral
     planes = (cells + 1) * solid.interface_modes
     return planes + cells * solid.internal_modes + below - held
+
+
+def seconds(study: Study, name: str) -> float:
+    """Time that a run, or its smooth twin, will take in a process that runs already."""
+    owner, run = untwinned(study, name)
+    return _forecast(owner, run, build.track(owner))[2] - START
 
 
 def needs(study: Study, companions: Sequence[Any], reporter: Reporter) -> list[str | Table]:

@@ -15,6 +15,7 @@ from contactstudy.study.kinds.passage.placing import contact_zone, scan_meeting
 from contactstudy.study.kinds.passage.roughness import describe
 from contactstudy.study.kinds.passage.scan import PATHS as SCAN_PATHS
 from contactstudy.study.kinds.passage.schema import IRREGULARITY, Study
+from contactstudy.study.kinds.passage.twins import twins, untwinned
 from contactstudy.study.kinds.passage.wheelset import PATHS as WHEELSET_PATHS
 
 #: Steps of a beam that take about as long as a process takes to start.
@@ -80,23 +81,27 @@ def _scans(study: Study, config: dict[str, Any], files: dict[str, str]) -> tuple
 
 
 def work(study: Study, inputs: Inputs) -> list[Work]:
-    """A piece a run."""
+    """A piece a run, and one a smooth twin."""
 
-    def light(run: str) -> bool:
-        return not study.meshes_rail(run) and journey(study, run).n_steps <= LIGHT
+    def piece(name: str) -> Work:
+        owner, run = untwinned(study, name)
+        light = not study.meshes_rail(run) and journey(study, run).n_steps <= LIGHT
+        long = study.runs[run].needs_solid
+        return Work(name, _run_inputs(owner, inputs, run), long=long, light=light)
 
-    return [
-        Work(name, _run_inputs(study, inputs, name), long=run.needs_solid, light=light(name))
-        for name, run in study.runs.items()
-    ]
+    return [piece(name) for name in (*study.runs, *twins(study).values())]
 
 
 def _run_inputs(study: Study, inputs: Inputs, run: str) -> list[Any]:
     """Everything that goes into one run, as plain data; the contents of files stand apart."""
-    shared = {k: v for k, v in inputs.config.items() if k not in ("runs", "compare", "solid")}
+    own = study.resolved_run(run)
+    apart = {"runs", "compare", "solid"} | (
+        {"irregularity"} if own["irregularity"] == "smooth" else set()
+    )
+    shared = {k: v for k, v in inputs.config.items() if k not in apart}
     # Beams take their section from the solid's mesh, so its size matters to them as well.
     solid = study.solid.resolved() | {"wheel_section": Path(study.solid.wheel_section).name}
     shared["solid"] = solid if study.meshes_rail(run) else solid["mesh_size"]
     # with modes in another run the wheel is meshed more finely round its circumference
     shared["modes"] = study.meshes_wheel(run) and study.has_wheel_modes
-    return [study.config()["runs"][run], shared]
+    return [own, shared]

@@ -16,6 +16,8 @@ class PassageKind(Kind):
 
     name = "passage"
     computing = f"{_HERE}.execution:execute_run"
+    batching = f"{_HERE}.execution:execute_batch"
+    measuring = f"{_HERE}.measures:measure"
     about = "Wheels run over a track, by several models that are compared."
     tables = SECTIONS
     inner_tables: ClassVar = {"runs": SOLVERS}
@@ -33,7 +35,9 @@ class PassageKind(Kind):
     read_inputs = later(f"{_HERE}.inputs:read_inputs")
     check = later(f"{_HERE}.forecast:needs")
     work = later(f"{_HERE}.inputs:work")
+    seconds = later(f"{_HERE}.forecast:seconds")
     before = later(f"{_HERE}.execution:condensing")
+    collect = later(f"{_HERE}.twins:with_twins")
     metrics = later(f"{_HERE}.metrics:metrics")
     drawings = later(f"{_HERE}.drawings:drawings")
     write_files = later(f"{_HERE}.fields:write_files")

@@ -8,11 +8,13 @@
     comparisons.<name>.<signal>:
         relative_l2, relative_l2_dynamic, linf, rms, correlation,
         sprague_geers {M, P, C}, sprague_geers_dynamic {M, P, C},
+        with ``compare.smooth`` also relative_l2_irregularity and sprague_geers_irregularity,
         third_octave {nominal centre in Hz: level less the reference's in dB}
 
 Both signals are compared at equal wheel positions behind the fade-in; `contactstudy.compare.norms`
 defines the norms. ``linf`` and ``rms`` are in the signal's SI unit. The dynamic part is what is
-left of a signal when its own value in the static start is taken off. A norm that does not exist,
+left of a signal when its own value in the static start is taken off; the irregularity's part,
+when the same run on a smooth rail is taken off. A norm that does not exist,
 because a signal is zero or constant, is null.
 """
 
@@ -28,11 +30,10 @@ from contactstudy.arrays import Array
 from contactstudy.compare import norms
 from contactstudy.compare.bands import level_differences
 from contactstudy.study.kinds.passage.schema import Study
+from contactstudy.study.kinds.passage.twins import SIGNALS, SMOOTH
 
 if TYPE_CHECKING:
     import xarray as xr
-
-SIGNALS = ("contact_force", "wheel_displacement", "wheel_acceleration", "rail_displacement")
 
 
 def metrics(
@@ -82,32 +83,54 @@ def _penetration(run: xr.Dataset) -> dict[str, float]:
     return {key: float(run[name].max()) for key, name in found.items() if name in run}
 
 
-def compare_runs(run: xr.Dataset, reference: xr.Dataset, start: float) -> dict[str, Any]:
-    """Norms of each signal of `run` against `reference`, from the position `start` [m] on."""
+def compare_runs(
+    run: xr.Dataset, reference: xr.Dataset, start: float, bands: bool = True
+) -> dict[str, Any]:
+    """Norms of each signal of `run` against `reference`, from the position `start` [m] on.
+
+    Levels in third octaves are left out without `bands`.
+    """
     return {
-        name: _compare_signals(run, reference, name, start)
+        name: _compare_signals(run, reference, name, start, bands)
         for name in SIGNALS
         if name in run and name in reference
     }
 
 
-def _compare_signals(run: xr.Dataset, reference: xr.Dataset, name: str, start: float) -> Any:
-    x_run, x_reference = _position(run), _position(reference)
+def parts_of(run: xr.Dataset, name: str) -> dict[str, Array]:
+    """A signal without its static value, and without that of the run's twin if it has one."""
+    values = np.asarray(run[name].values)
+    parts = {"dynamic": norms.dynamic_part(values, values[..., 0])}
+    if name + SMOOTH in run:
+        parts["irregularity"] = values - run[name + SMOOTH].values
+    return parts
+
+
+def _compare_signals(
+    run: xr.Dataset, reference: xr.Dataset, name: str, start: float, bands: bool
+) -> Any:
+    x_run, x_reference = position(run), position(reference)
     x = norms.common_positions(x_run, x_reference, start)
-    a_all, b_all = run[name].values, reference[name].values
-    a, b = norms.at_positions(a_all, x_run, x), norms.at_positions(b_all, x_reference, x)
-    a_static, b_static = a_all[..., 0], b_all[..., 0]
-    dynamic = norms.dynamic_part(a, a_static), norms.dynamic_part(b, b_static)
-    return {
+    a = norms.at_positions(run[name].values, x_run, x)
+    b = norms.at_positions(reference[name].values, x_reference, x)
+    made: dict[str, Any] = {
         "relative_l2": _number(norms.relative_l2(a, b, x)),
-        "relative_l2_dynamic": _number(norms.relative_l2(*dynamic, x)),
         "linf": _number(norms.linf(a, b)),
         "rms": _number(norms.rms(a, b, x)),
         "correlation": _number(norms.correlation(a, b, x)),
         "sprague_geers": _sprague_geers(a, b, x),
-        "sprague_geers_dynamic": _sprague_geers(*dynamic, x),
-        "third_octave": level_differences(*dynamic, x, _speed(reference)),
     }
+    of_run, of_reference = parts_of(run, name), parts_of(reference, name)
+    for part in of_run.keys() & of_reference.keys():
+        pair = (
+            norms.at_positions(of_run[part], x_run, x),
+            norms.at_positions(of_reference[part], x_reference, x),
+        )
+        made[f"relative_l2_{part}"] = _number(norms.relative_l2(*pair, x))
+        made[f"sprague_geers_{part}"] = _sprague_geers(*pair, x)
+        if bands and part == "dynamic":
+            made["third_octave"] = level_differences(*pair, x, _speed(reference))
+    return made
 
 
 def _sprague_geers(a: Any, b: Any, x: Array) -> dict[str, float | None]:
@@ -119,14 +142,14 @@ def _sprague_geers(a: Any, b: Any, x: Array) -> dict[str, float | None]:
     }
 
 
-def _position(run: xr.Dataset) -> Array:
+def position(run: xr.Dataset) -> Array:
     """Position (n,) of the leading wheel in m."""
     position = run["position"]
     return np.asarray((position.isel(wheel=0) if "wheel" in position.dims else position).values)
 
 
 def _speed(run: xr.Dataset) -> float:
-    x, t = _position(run), run["time"].values
+    x, t = position(run), run["time"].values
     return float((x[-1] - x[0]) / (t[-1] - t[0]))
 
 

@@ -14,6 +14,7 @@ from contactstudy.study.overrides import Overrides, override
 from contactstudy.validation import complaint, did_you_mean, raise_if, read, resolve_paths, unknown
 
 _TOP_LEVEL = ("title", "description", "companions", *SECTIONS, "runs", "compare")
+_COMPARE = ("reference", "smooth")
 _SHARED = ("track", "vehicle", "journey", "solid", "wheelset", "scan")
 
 
@@ -60,10 +61,10 @@ def parse_study(
             tables["solid"] = solid.fitting(tables["track"])
     runs, wrong = _runs(data.get("runs", {}))
     texts, wrong_texts = _texts(name, data)
-    reference, wrong_compare = _reference(data, list(data["runs"]) if runs else [])
+    compare, wrong_compare = _compare(data, list(data["runs"]) if runs else [])
     found += wrong + combined(tables, runs) + wrong_texts + wrong_compare
     raise_if(found)
-    return Study(name=name, **texts, **tables, runs=runs, reference=reference)
+    return Study(name=name, **texts, **tables, runs=runs, **compare)
 
 
 def _runs(data: Any) -> tuple[dict[str, Any], list[str]]:
@@ -94,10 +95,14 @@ def _texts(name: str, data: Mapping[str, Any]) -> tuple[dict[str, Any], list[str
     return texts | {"companions": tuple(companions)}, problems
 
 
-def _reference(data: Mapping[str, Any], runs: list[str]) -> tuple[str | None, list[str]]:
+def _compare(data: Mapping[str, Any], runs: list[str]) -> tuple[dict[str, Any], list[str]]:
     table = data.get("compare", {})
     if not isinstance(table, Mapping):
-        return None, [complaint("compare", table, "must be a table")]
-    problems = [unknown("compare", key, ["reference"]) for key in table if key != "reference"]
+        return {}, [complaint("compare", table, "must be a table")]
+    problems = [unknown("compare", key, _COMPARE) for key in table if key not in _COMPARE]
     reference = table.get("reference", runs[0] if len(runs) > 1 else None)
-    return reference, problems + wrong_reference(reference, runs)
+    smooth = table.get("smooth", False)
+    if not isinstance(smooth, bool):
+        problems.append(complaint("compare.smooth", smooth, "must be true or false"))
+    problems += wrong_reference(reference, runs)
+    return {"reference": reference, "smooth": smooth is True}, problems

@@ -64,6 +64,8 @@ class Study:
     scan: ScanFiles = field(default_factory=ScanFiles)
     runs: dict[str, PointRun | SurfaceRun] = field(default_factory=dict)
     reference: str | None = None
+    #: Whether each run is also run on a smooth rail, for the part that the irregularity causes.
+    smooth: bool = False
 
     def __post_init__(self) -> None:
         """Refuse what is impossible in combination, as in a file; cells fit the supports."""
@@ -123,19 +125,17 @@ class Study:
             key: resolved(SECTIONS[key], getattr(self, key)) for key in self._used()
         }
         if self.runs:
-            tables["runs"] = {
-                name: resolved(SOLVERS, run)
-                | {"time_step": self.time_step(name)}
-                | (
-                    {"wheel": self.wheel(name)}
-                    if isinstance(run, SurfaceRun) or self.presses(name)
-                    else {}
-                )
-                for name, run in self.runs.items()
-            }
+            tables["runs"] = {name: self.resolved_run(name) for name in self.runs}
         if self.reference:
-            tables["compare"] = {"reference": self.reference}
+            tables["compare"] = {"reference": self.reference, "smooth": self.smooth}
         return tables
+
+    def resolved_run(self, name: str) -> dict[str, Any]:
+        """Values of a run, with those that are the study's."""
+        run = self.runs[name]
+        meshed = isinstance(run, SurfaceRun) or self.presses(name)
+        own = {"wheel": self.wheel(name)} if meshed else {}
+        return resolved(SOLVERS, run) | {"time_step": self.time_step(name)} | own
 
     def units(self) -> dict[str, str]:
         """Dotted key of `config` -> SI unit, for keys that have one."""

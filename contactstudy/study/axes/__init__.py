@@ -1,0 +1,1 @@
+"""Axes: keys of a study of any kind that are varied, refined or drawn at random."""

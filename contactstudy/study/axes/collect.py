@@ -1,0 +1,60 @@
+"""The results of a study with axes, from what was measured of its variants."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from contactstudy.study.axes.dataset import design_dataset
+from contactstudy.study.axes.kept import kept_histories
+from contactstudy.study.axes.swept import Swept
+from contactstudy.study.plan import Piece, Plan, Planned, made_results
+from contactstudy.study.results import StudyResults
+
+if TYPE_CHECKING:
+    from contactstudy.study.compute import Found
+
+
+def collect_swept(plan: Plan, found: Found) -> StudyResults:
+    """Results of a plan with axes: a group a design, no runs."""
+    study = plan.study
+    assert isinstance(study, Swept)
+    measured = {
+        name: found.measured[v.key].value
+        for name, v in plan.variants.items()
+        if v.key in found.measured
+    }
+    failures = {name: text for name, v in plan.variants.items() if (text := _failure(v, found))}
+    groups = {}
+    for design in study.designs:
+        names = {index: name for (d, index), name, _ in study.named_points() if d is design}
+        groups[design.name] = design_dataset(design, names, measured, failures)
+        if study.keep:
+            groups[design.name] = kept_histories(plan, groups[design.name], names, study.keep)
+    return made_results(plan, runs={}, metrics=_metrics(plan, found, failures), groups=groups)
+
+
+def _failure(variant: Planned, found: Found) -> str:
+    reasons = [found.failures[p] for p in variant.pieces.values() if p in found.failures]
+    return "; ".join(dict.fromkeys(reasons))
+
+
+def _metrics(plan: Plan, found: Found, failures: Mapping[str, str]) -> dict[str, Any]:
+    """Content of ``metrics.json``.
+
+    ::
+
+        variants.<name>:  title, failure where it failed, seconds of each run (set-up and steps;
+                          those of a batch are its mean; equal runs of several variants are one)
+        reference:        as of a study without axes
+    """
+    variants = {}
+    for name, v in plan.variants.items():
+        seconds = {n: _seconds(p, found) for n, p in v.pieces.items() if p not in found.failures}
+        failed = {"failure": failures[name]} if name in failures else {}
+        variants[name] = {"title": v.title, **failed, "seconds": seconds}
+    return {"runs": {}, "variants": variants, "reference": plan.study.reference, "comparisons": {}}
+
+
+def _seconds(piece: Piece, found: Found) -> float:
+    return float(sum(found.pieces[piece].about["seconds"].values()))

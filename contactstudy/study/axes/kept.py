@@ -1,0 +1,70 @@
+"""Whole histories of all variants, where the study keeps them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from contactstudy.exceptions import InputError
+from contactstudy.study.plan import Plan
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+SAMPLE = "sample"
+"""Dimension of the samples of a history; shorter ones end in nan."""
+_MOST = 2.5e8  # numbers, 2 GB
+
+
+def kept_histories(
+    plan: Plan, data: xr.Dataset, names: Mapping[tuple[int, ...], str], keep: Sequence[str]
+) -> xr.Dataset:
+    """The dataset of a design with histories of its variants' runs, and their coordinates.
+
+    Raises
+    ------
+    InputError
+        For a history that no run has, or when they are too large together.
+    """
+    found: dict[tuple[tuple[int, ...], str], xr.Dataset] = {}
+    for index, name in names.items():
+        variant = plan.variants[name]
+        pieces = {n: plan.kept(p).value for n, p in variant.pieces.items()}
+        if all(value is not None for value in pieces.values()):
+            runs = plan.kind.collect(variant.study, pieces)
+            found |= {(index, run): histories(value, keep) for run, value in runs.items()}
+        size = sum(one.sizes.get(SAMPLE, 0) * len(one.variables) for one in found.values())
+        if size > _MOST:
+            raise InputError(f"sweep.keep: histories of more than {8 * _MOST / 1e9:g} GB")
+    wanted = dict.fromkeys(str(n) for one in found.values() for n in one.variables)
+    if missing := [name for name in keep if name not in wanted and found]:
+        raise InputError(f"sweep.keep: no run has the history {' or '.join(missing)}")
+    measured = data["run"].values.tolist() if "run" in data.coords else []
+    labels = list(dict.fromkeys([*measured, *(run for _, run in found)]))
+    data = data.reindex(run=labels) if measured else data.assign_coords(run=labels)
+    dims = data["variant"].dims
+    longest = max((one.sizes.get(SAMPLE, 0) for one in found.values()), default=0)
+    for name in wanted:
+        values = np.full([*(data.sizes[d] for d in dims), len(labels), longest], np.nan)
+        attrs: dict[str, Any] = {}
+        for (index, run), one in found.items():
+            if name in one.variables:
+                values[index][labels.index(run), : one.sizes[SAMPLE]] = one[name].values
+                attrs = dict(one[name].attrs)
+        data[name] = ((*dims, "run", SAMPLE), values, attrs)
+    return data
+
+
+def histories(run: xr.Dataset, keep: Sequence[str]) -> xr.Dataset:
+    """Histories of one run along its one dimension, and the coordinates along it."""
+    import xarray as xr
+
+    made = xr.Dataset()
+    for name in keep:
+        if name in run and run[name].ndim == 1:
+            dim = run[name].dims[0]
+            own = [name, *(c for c in run.coords if run[c].dims == (dim,))]
+            made = made.assign({n: ((SAMPLE,), run[n].values, run[n].attrs) for n in own})
+    return made

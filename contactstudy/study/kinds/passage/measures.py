@@ -1,0 +1,95 @@
+"""What is measured of one variant of a passage: errors against the reference, and each run's own.
+
+::
+
+    relative_l2 (run, signal, part), sprague_geers (run, signal, part, measure)
+    correlation, linf, rms (run, signal)          all these against the reference
+    static, smallest, largest (run, signal)       at rest, and behind the fade-in
+    root_mean_square (run, signal, part)          of the dynamic and the irregularity's part
+    contact_lost (run)                            share of the way without contact
+
+Parts are total, dynamic, and with ``compare.smooth`` irregularity, as in
+`contactstudy.study.kinds.passage.metrics`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from contactstudy.arrays import Array
+from contactstudy.study.axes.measured import Measured, measured
+from contactstudy.study.kinds.passage.metrics import compare_runs, parts_of, position
+from contactstudy.study.kinds.passage.schema import Study
+from contactstudy.study.kinds.passage.twins import SMOOTH, with_twins
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+PARTS = ("total", "dynamic", "irregularity")
+_RUN = ["run", "signal"]
+_UNIT = "in the signal's SI unit"
+_ERRORS = {
+    "relative_l2": ("relative L2 difference from the reference", [*_RUN, "part"]),
+    "rms": (f"root mean square of the difference from the reference, {_UNIT}", _RUN),
+    "linf": (f"largest difference from the reference, {_UNIT}", _RUN),
+    "correlation": ("Pearson's correlation with the reference", _RUN),
+    "sprague_geers": ("errors of Sprague and Geers", [*_RUN, "part", "measure"]),
+}
+_OWN = {
+    "static": (f"value at rest, {_UNIT}", _RUN),
+    "smallest": (f"smallest value behind the fade-in, {_UNIT}", _RUN),
+    "largest": (f"largest value behind the fade-in, {_UNIT}", _RUN),
+    "root_mean_square": (f"root mean square of a part of the signal, {_UNIT}", [*_RUN, "part"]),
+    "contact_lost": ("share of the way without contact", ["run"]),
+}
+
+
+def measure(study: Study, found: Mapping[str, Any]) -> Measured:
+    """Measure the runs of a variant, from its finished pieces of work."""
+    runs = with_twins(study, found)
+    start = study.journey.start + study.journey.fade_in
+    made = {n: measured("1", text, dims, {}) for n, (text, dims) in (_ERRORS | _OWN).items()}
+    for name, run in runs.items():
+        _own(run, start, lambda variable, name=name: made[variable]["values"].setdefault(name, {}))
+        made["contact_lost"]["values"][name] = _lost(run, start)
+        if study.reference is not None and name != study.reference:
+            for signal, entry in compare_runs(run, runs[study.reference], start, False).items():
+                for variable, (_, dims) in _ERRORS.items():
+                    value = entry[variable] if dims == _RUN else _by_part(entry, variable)
+                    made[variable]["values"].setdefault(name, {})[signal] = value
+    return {name: entry for name, entry in made.items() if entry["values"]}
+
+
+def _by_part(entry: Mapping[str, Any], name: str) -> dict[str, Any]:
+    keys = {part: name if part == "total" else f"{name}_{part}" for part in PARTS}
+    return {part: entry[key] for part, key in keys.items() if key in entry}
+
+
+def _own(run: xr.Dataset, start: float, of: Any) -> None:
+    """Enter what a run's histories are by themselves."""
+    x = position(run)
+    for name, variable in run.data_vars.items():
+        signal = str(name)
+        if variable.dims[-1:] != ("time",) or "station" in variable.dims or signal.endswith(SMOOTH):
+            continue
+        values = np.asarray(variable.values, dtype=float)
+        behind = _behind(values, x, start)
+        of("static")[signal] = float(values.flat[0])
+        of("smallest")[signal] = float(behind.min())
+        of("largest")[signal] = float(behind.max())
+        parts = {k: _behind(v, x, start) for k, v in parts_of(run, signal).items()}
+        squares = {part: float(np.sqrt(np.mean(v**2))) for part, v in parts.items()}
+        of("root_mean_square")[signal] = squares
+
+
+def _lost(run: xr.Dataset, start: float) -> float:
+    force = _behind(np.asarray(run["contact_force"].values), position(run), start)
+    return float(np.mean(force <= 0.0))
+
+
+def _behind(values: Array, x: Array, start: float) -> Array:
+    """The samples behind the fade-in."""
+    return np.asarray(values[..., x >= start - 1e-9 * max(abs(start), 1.0)])
