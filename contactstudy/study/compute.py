@@ -188,7 +188,7 @@ class _Names:
         made: dict[str, Task] = {}
         for task in tasks:
             after = tuple(made[name].name for name in task.after)
-            key = (task.name, task.function, task.arguments)
+            key = (task.name, task.function, repr(task.arguments))
             if key not in self._tasks:
                 self._tasks[key] = replace(task, name=self.free(task.name), after=after)
             made[task.name] = self._tasks[key]
