@@ -97,9 +97,11 @@ def _put(data: dict[str, Any], key: str, value: Any) -> list[str]:
 
 
 def _value(text: str) -> Any:
-    """Read `text` as a TOML value, else take it as the text itself."""
+    """Read `text` as a TOML value, else take it, or what stands in its brackets, as text."""
     try:
         parsed = tomllib.loads(f"value = {text}")
     except tomllib.TOMLDecodeError:
+        if text.startswith("[") and text.endswith("]"):
+            return [_value(part.strip()) for part in text[1:-1].split(",")]
         return text
     return parsed["value"] if list(parsed) == ["value"] else text

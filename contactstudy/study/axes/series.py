@@ -8,14 +8,17 @@ from dataclasses import dataclass
 from typing import Any
 
 from contactstudy.units import Limits, UnitError, to_si
-from contactstudy.validation import Parameter
+from contactstudy.validation import Parameter, as_list
 
 MOST = 20_000
 """Largest number of variants of a study."""
 
-_RANGE = re.compile(r"(?P<first>.+?)\s+to\s+(?P<last>.+?)(?:\s+(?P<how>by|x)\s+(?P<by>[^x]+))?")
+_NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
+_RANGE = re.compile(
+    rf"(?P<first>.+?)\s+to\s+(?P<last>.+?)(?:\s+by\s+(?P<by>.+)|\s+x\s+(?P<x>{_NUMBER}))?"
+)
 _SPACED = re.compile(r"(.+?)\s*,\s*(linear|logarithmic)")
-_TIMES = re.compile(r"(?P<factor>[0-9.eE+-]+)\s*x\s*(?P<of>[A-Za-z_]+)")
+_TIMES = re.compile(rf"(?P<factor>{_NUMBER})\s*x\s*(?P<of>[A-Za-z_]+)")
 _FORM = (
     'must be a list, or text like "1 to 50", "0 m to 7 m by 0.5 m", '
     '"20 mm to 3 m by 14, logarithmic" or "2 to 32 x 2"'
@@ -43,8 +46,8 @@ class Series:
         return not isinstance(self.coordinates[0], str)
 
 
-def series(given: Any, parameter: Parameter) -> Series:
-    """The values that a study file gives for a key.
+def series(given: Any, parameter: Parameter, distinct: bool = True) -> Series:
+    """The values that a study file gives for a key, all different if `distinct`.
 
     Raises
     ------
@@ -54,12 +57,26 @@ def series(given: Any, parameter: Parameter) -> Series:
     if isinstance(given, str) and not parameter.only_text:
         made = _range(given, parameter)
         given = [given] if made is None else made
-    values = tuple(given) if isinstance(given, list | tuple) else (given,)
+    listed = as_list(given)
+    values = (given,) if listed is None else listed
     if not values:
         raise UnitError("must hold at least one value")
     if len(values) > MOST:
         raise UnitError(f"holds {len(values)} values; allowed are {MOST}")
-    return _placed(values, parameter)
+    placed = _placed(tuple(map(_plain, values)), parameter)
+    if distinct and len(set(placed.coordinates)) < len(placed):
+        raise UnitError("must not hold a value twice")
+    return placed
+
+
+def _plain(value: Any) -> Any:
+    """A value as a study file may hold it; that of numpy as Python's."""
+    value = value.item() if getattr(value, "ndim", None) == 0 else value
+    if isinstance(value, str | int | float):
+        return value
+    if (items := as_list(value)) is not None:
+        return [_plain(item) for item in items]
+    raise UnitError(f"holds a {type(value).__name__}; values are numbers, texts or lists of them")
 
 
 def _placed(values: tuple[Any, ...], parameter: Parameter) -> Series:
@@ -73,8 +90,6 @@ def _placed(values: tuple[Any, ...], parameter: Parameter) -> Series:
     mixed = bool(factors) and not (alike and len(factors) == 1)
     if parameter.only_text or parameter.listed or len(coordinates) < len(values) or mixed:
         coordinates, factors = texts, set()
-    if len(set(coordinates)) < len(coordinates):
-        raise UnitError("must not hold a value twice")
     unit = "" if factors or isinstance(coordinates[0], str) else parameter.unit
     return Series(values, coordinates, unit, "".join(factors))
 
@@ -101,9 +116,9 @@ def _range(text: str, parameter: Parameter) -> list[Any] | None:
     if match is None or text.strip() in parameter.choices:
         return None
     ends, of = _ends(match["first"], match["last"], parameter)
-    if match["how"] == "x":
-        numbers = _by_factor(*ends, _ratio(match["by"]))
-    elif match["how"] == "by":
+    if match["x"]:
+        numbers = _by_factor(*ends, _ratio(match["x"]))
+    elif match["by"]:
         numbers = _by(*ends, match["by"], "" if of else parameter.unit, parameter.limits.whole)
     elif parameter.limits.whole:
         numbers = _by_step(*ends, 1.0)

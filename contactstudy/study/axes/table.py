@@ -21,6 +21,7 @@ from contactstudy.study.axes.series import MOST, Series, series
 from contactstudy.study.kind import Kind
 from contactstudy.units import Limits, UnitError
 from contactstudy.validation import Parameter, complaint, entries, unknown
+from contactstudy.validation.messages import any_of
 
 TABLES = ("sweep", "refine", "quick")
 """Tables that are not a kind's."""
@@ -109,7 +110,7 @@ class _Reader:
         self._no_settings("sweep", table, _SETTINGS)
         combine, keep = table.get("combine", GRID), table.get("keep", [])
         if combine not in COMBINATIONS:
-            self._wrong("sweep.combine", combine, f"must be one of {', '.join(COMBINATIONS)}")
+            self._wrong("sweep.combine", combine, f"must be {any_of(COMBINATIONS)}")
             combine = GRID
         if not isinstance(keep, list) or not all(isinstance(k, str) for k in keep):
             self._wrong("sweep.keep", keep, "must be a list of names of histories")
@@ -119,7 +120,8 @@ class _Reader:
             for name in ("samples", "seed"):
                 if name in table:
                     self._wrong(f"sweep.{name}", table[name], f'means nothing with "{combine}"')
-            found = {k: s for k, v in keys.items() if (s := self._series("sweep", k, v))}
+            distinct = combine != ZIP
+            found = {k: s for k, v in keys.items() if (s := self._series("sweep", k, v, distinct))}
             if combine == ZIP and len({len(s) for s in found.values()}) > 1:
                 lengths = ", ".join(f"{k} {len(s)}" for k, s in found.items())
                 self.problems.append(f"sweep: zipped series must be equally long ({lengths})")
@@ -138,8 +140,11 @@ class _Reader:
                 continue
             x = made.coordinates
             steps = {b > a for a, b in pairwise(x)} if made.numeric else set()
-            if len(made) < 3 or len(steps) != 1:
-                self._wrong(f"refine.{key}", value, "must be 3 or more numbers, coarse to fine")
+            counts = (parameter := self._parameter("refine", key)) and parameter.limits.whole
+            if len(made) < 3 or len(steps) != 1 or (counts and x[0] > x[-1]):
+                more = ", that is increasing" if counts else ""
+                allowed = f"must be 3 or more numbers, coarse to fine{more}"
+                self._wrong(f"refine.{key}", value, allowed)
                 continue
             found[key] = made
         expected = table.get("expected", {})
@@ -200,7 +205,7 @@ class _Reader:
             self._wrong(f"sweep.{name}", table[name], str(error))
             return default
 
-    def _series(self, table: str, key: str, value: Any) -> Series | None:
+    def _series(self, table: str, key: str, value: Any, distinct: bool = True) -> Series | None:
         parameter = self._parameter(table, key)
         if parameter is None:
             return None
@@ -212,7 +217,9 @@ class _Reader:
                     self._file(parameter, v)
                     for v in (value if isinstance(value, list) else [value])
                 ]
-            return series(value, parameter)
+            elif distribution(value, parameter) is not None:
+                raise UnitError(f"is drawn only in [sweep] with combine = {any_of(_DRAWN)}")
+            return series(value, parameter, distinct)
         except UnitError as error:
             self._wrong(f"{table}.{key}", value, str(error))
             return None

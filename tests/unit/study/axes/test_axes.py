@@ -203,6 +203,27 @@ def test_all_that_is_wrong_is_said_at_once(law):
         assert part in told
 
 
+@pytest.mark.parametrize(
+    ("axes", "message"),
+    [
+        ('[sweep]\n"law.x" = "uniform 1 m to 2 m"\n', 'drawn only in [sweep] with combine = "sob'),
+        ('[sweep]\n"law.x" = ["1e x tangent"]\n', "unknown unit 'e x tangent'"),
+        ('[refine]\n"law.seed" = [4, 2, 1]\n', "coarse to fine, that is increasing"),
+        ('[refine]\n"law.x" = [4, 2, 3]\n', "must be 3 or more numbers, coarse to fine"),
+    ],
+)
+def test_series_that_mean_something_else(law, axes, message):
+    with pytest.raises(InputError) as error:
+        load_study(law(axes))
+    assert message in str(error.value)
+
+
+def test_zipped_series_may_repeat_a_value(law, tmp_path):
+    text = '[sweep]\n"law.x" = [1, 2, 2]\n"law.order" = [1, 1, 2]\ncombine = "zip"\n'
+    data = swept(law(text), tmp_path / "zip").designs["sweep"]
+    np.testing.assert_allclose(data["largest"].sel(run="power"), [6, 7, 9])
+
+
 def test_impossible_variants_are_named_with_their_values(law):
     text = '[sweep]\n"law.x" = [10, 200, 300]\n"law.order" = [1, 2.5]\n'
     with pytest.raises(InputError) as caught:

@@ -1,5 +1,7 @@
 """Series of values of a key, in all forms, and distributions against scipy's."""
 
+from datetime import date
+
 import numpy as np
 import pytest
 from scipy import stats
@@ -51,6 +53,20 @@ def test_factors_stand_on_an_axis_of_numbers():
     assert (found.unit, found.factor_of) == ("", "tangent")
 
 
+def test_factors_in_a_range_of_a_number_of_values():
+    text = "0.25 x tangent to 1000 x tangent by 3, logarithmic"
+    found = series(text, parameter("runs.point.k_r"))
+    assert found.coordinates == pytest.approx((0.25, 250**0.5, 1000)) and found.factor_of
+
+
+def test_arrays_ranges_and_numbers_of_numpy_are_values_of_a_file():
+    for given in (np.arange(1, 4), range(1, 4), [np.int64(1), np.int64(2), np.array(3)]):
+        found = series(given, parameter("irregularity.seed")).values
+        assert found == (1, 2, 3) and {type(value) for value in found} == {int}
+    found = series([np.array([0.1, 0.2])], parameter("solid.pressure_at"))
+    assert found.values == ([0.1, 0.2],)
+
+
 @pytest.mark.parametrize(
     ("given", "key", "message"),
     [
@@ -65,6 +81,9 @@ def test_factors_stand_on_an_axis_of_numbers():
         ("1 kg to 8 m x 2", "journey.fade_in", "wrong unit 'kg'"),
         ([1, 2, 1.0], "journey.fade_in", "must not hold a value twice"),
         ([], "journey.fade_in", "at least one value"),
+        (date(2026, 1, 1), "journey.fade_in", "holds a date"),
+        ([None], "journey.fade_in", "holds a NoneType"),
+        ("1e x tangent to 4 x tangent x 2", "runs.point.k_r", "unknown unit 'e x tangent'"),
     ],
 )
 def test_what_is_refused(given, key, message):
