@@ -12,7 +12,7 @@ from contactstudy.report import write_report
 from contactstudy.reporter import Quiet, Reporter
 from contactstudy.store import Store
 from contactstudy.study.axes.collect import collect_swept
-from contactstudy.study.axes.dataset import CSV_FILE, write_csv
+from contactstudy.study.axes.dataset import write_csv
 from contactstudy.study.compute import Found, compute
 from contactstudy.study.kind import Study, find_kind
 from contactstudy.study.loading import load_companions
@@ -104,7 +104,7 @@ def _write(results: StudyResults, out_dir: Path) -> list[Path]:
     """Write labelled results, and the kind's further files, of a study and its companions."""
     written = [*write_results(results, out_dir)]
     if results.swept:
-        written.append(write_csv(results.designs, out_dir / CSV_FILE))
+        written += write_csv(results.designs, out_dir)
     else:
         written += find_kind(results.kind).write_files(results, out_dir)
     for companion in results.companions:

@@ -2,9 +2,16 @@
 
 from pathlib import Path
 
+from contactstudy.figures import axes
+from contactstudy.plot.drawing import Drawing
 from contactstudy.plot.style import figure_style, save
 from contactstudy.study.kind import find_kind
 from contactstudy.study.results import StudyResults
+
+
+def all_drawings(results: StudyResults) -> list[Drawing]:
+    """Figures of a study's axes, then those of its kind."""
+    return [*axes.drawings(results), *find_kind(results.kind).drawings(results)]
 
 
 def write_figures(results: StudyResults, out_dir: Path) -> list[Path]:
@@ -16,7 +23,7 @@ def write_figures(results: StudyResults, out_dir: Path) -> list[Path]:
     folder = Path(out_dir) / "figures"
     written: list[Path] = []
     with figure_style():
-        for made in find_kind(results.kind).drawings(results):
+        for made in all_drawings(results):
             written += save(made.draw(), folder, made.name)
     for companion in results.companions:
         written += write_figures(companion, Path(out_dir) / companion.name)

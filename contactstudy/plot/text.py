@@ -1,5 +1,7 @@
 """Names and numbers as they stand in captions, tables and on axes: plain typographic text."""
 
+import re
+
 import numpy as np
 
 
@@ -39,6 +41,12 @@ def exact(value: float, digits: int = 6) -> str:
         mantissa, power = text.split("·")
         return f"{_trimmed(mantissa)}·{power}"
     return _trimmed(text)
+
+
+def pretty_unit(unit: str) -> str:
+    """Unit with raised dots and exponents."""
+    raised = re.sub(r"\^(\d+)", lambda match: _superscript(int(match[1])), unit)
+    return raised.replace("*", "·")
 
 
 def _trimmed(text: str) -> str:

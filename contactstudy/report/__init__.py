@@ -4,11 +4,10 @@ import shutil
 import tempfile
 from pathlib import Path
 
-from contactstudy.figures import write_figures
+from contactstudy.figures import all_drawings, write_figures
 from contactstudy.files import writing
 from contactstudy.report.content import content
 from contactstudy.report.typesetting import typeset
-from contactstudy.study.kind import find_kind
 from contactstudy.study.results import StudyResults
 
 __all__ = ["write_report"]
@@ -36,7 +35,7 @@ def write_report(results: StudyResults, out_dir: Path, timings: bool = False) ->
 
 def _gather(results: StudyResults, out_dir: Path, folder: Path) -> None:
     """Copy the PDF figures of a study and its companions, having drawn them if one is missing."""
-    names = [made.name for made in find_kind(results.kind).drawings(results)]
+    names = [made.name for made in all_drawings(results)]
     if not all((out_dir / "figures" / f"{name}.pdf").is_file() for name in names):
         write_figures(results, out_dir)
     folder.mkdir(parents=True, exist_ok=True)

@@ -1,13 +1,15 @@
 """The whole report as plain data, for the template to set; what is said, a kind of study says."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 from contactstudy.plot.text import label
+from contactstudy.report import axes
 from contactstudy.report.blocks import Block, bullets, paragraphs
 from contactstudy.report.parameters import parameter_tables
 from contactstudy.report.quantity import quantity
-from contactstudy.study.kind import Part, find_kind
+from contactstudy.study.kind import Part, Report, find_kind
 from contactstudy.study.results import StudyResults
 from contactstudy.version import __version__
 
@@ -16,7 +18,7 @@ Content = dict[str, Any]
 
 def content(results: StudyResults, timings: bool) -> Content:
     """Everything that the template inserts, with figures named relative to the study's folder."""
-    report = find_kind(results.kind).report(results, timings)
+    report = _report(results, timings)
     tables = parameter_tables(results)
     data: Content = {
         "title": results.title,
@@ -37,8 +39,17 @@ def content(results: StudyResults, timings: bool) -> Content:
     return data | {"cites": cites or report.model != ""}
 
 
+def _report(results: StudyResults, timings: bool) -> Report:
+    """What a kind says of a study; of one with axes that of its axes first."""
+    own = find_kind(results.kind).report(results, timings)
+    if not results.swept:
+        return own
+    parts = [*axes.parts(results), *own.parts]
+    return replace(own, abstract=axes.abstract(results), parts=parts, as_companion=None)
+
+
 def _companion(results: StudyResults, timings: bool) -> Content:
-    report = find_kind(results.kind).report(results, timings)
+    report = _report(results, timings)
     own = report.parts if report.as_companion is None else report.as_companion
     return {"title": results.title, "parts": _placed(own, f"{results.name}/")}
 

@@ -1,16 +1,14 @@
 """Numbers as they stand in the report: SI prefixes, significant digits, typographic signs."""
 
-import re
 from typing import Any
 
 import numpy as np
 
-from contactstudy.plot.text import exact, number
+from contactstudy.plot.text import exact, number, pretty_unit
 
 # Unit -> whether its leading symbol takes a prefix, and which.
 _LARGE = ((1e9, "G"), (1e6, "M"), (1e3, "k"))
 _PREFIXED = ("N", "Pa")
-_RAISED = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def quantity(value: Any, unit: str = "") -> tuple[str, str]:
@@ -50,12 +48,6 @@ def _plain(value: float) -> str:
 def grouped(value: int) -> str:
     """Whole number with thin spaces between groups of three digits."""
     return f"{value:,}".replace(",", "\u2009")
-
-
-def pretty_unit(unit: str) -> str:
-    """Unit with raised dots and exponents."""
-    raised = re.sub(r"\^(\d+)", lambda match: match[1].translate(_RAISED), unit)
-    return raised.replace("*", "·")
 
 
 def percent(fraction: float | None, digits: int = 2) -> str:

@@ -114,6 +114,20 @@ class Work:
 
 
 @dataclass(frozen=True)
+class Quantity:
+    """Something measured, as figures and tables of a study with axes show it."""
+
+    #: Variable of `contactstudy.study.axes.measured`.
+    variable: str
+    #: Of axes and tables, with the unit; ``{part}`` is the label that was chosen of "part".
+    title: str
+    #: Dimension -> label that is chosen of it, the first of several that is there.
+    labels: Mapping[str, Sequence[str]] = field(default_factory=dict)
+    #: From the variable's unit to the title's.
+    factor: float = 1.0
+
+
+@dataclass(frozen=True)
 class Report:
     """What a kind has to say of a study in the report, as plain data."""
 
@@ -150,6 +164,12 @@ class Kind:
     #: "module:function" of what is measured of a variant of a study with axes:
     #: ``function(study, pieces by name)`` gives what `contactstudy.study.axes.measured` describes.
     measuring: ClassVar[str] = "contactstudy.study.axes.measured:extremes"
+    #: The same against the finest variant of a refinement: ``function(study, pieces by name,
+    #: pieces of the finest by name)``; nothing without it.
+    refining: ClassVar[str] = ""
+    #: What is shown of what is measured, in figures and tables; all that is measured if empty.
+    #: Of refinements it has order and limit.
+    shown: ClassVar[Sequence[Quantity]] = ()
     #: How what it returns is kept: a dataset, or plain data (small ones are quicker so) for None.
     form: ClassVar[Form | None] = DATASET
     #: Table of the study file -> its model: for reading, ``--set`` and the reference of keys.

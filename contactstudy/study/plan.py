@@ -49,6 +49,11 @@ class Planned:
     #: Hash of all that goes into what is measured of it; "" for a study without axes.
     key: str = ""
 
+    @property
+    def keys(self) -> dict[str, str]:
+        """Name of each piece of work -> its key."""
+        return {name: piece.key for name, piece in self.pieces.items()}
+
 
 @dataclass(frozen=True)
 class Plan:
@@ -154,6 +159,11 @@ def _read(kind: Kind, study: Study | Swept) -> Inputs:
 
 def _module(place: str) -> str:
     return place.partition(":")[0]
+
+
+def refined_key(kind: Kind, variant: Planned, finest: Planned) -> str:
+    """Hash of all that goes into what is measured of a variant against the finest one."""
+    return store_key([variant.key, finest.key], _module(kind.refining))
 
 
 def collect(plan: Plan, found: Mapping[Piece, Kept]) -> StudyResults:

@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 from contactstudy.study.axes.dataset import design_dataset
 from contactstudy.study.axes.kept import kept_histories
-from contactstudy.study.axes.swept import Swept
-from contactstudy.study.plan import Piece, Plan, Planned, made_results
+from contactstudy.study.axes.refinement import with_convergence
+from contactstudy.study.axes.swept import Swept, finest_points
+from contactstudy.study.plan import Piece, Plan, Planned, made_results, refined_key
 from contactstudy.study.results import StudyResults
 
 if TYPE_CHECKING:
@@ -24,14 +25,27 @@ def collect_swept(plan: Plan, found: Found) -> StudyResults:
         for name, v in plan.variants.items()
         if v.key in found.measured
     }
+    finest = dict(finest_points(study)) if plan.kind.refining else {}
     failures = {name: text for name, v in plan.variants.items() if (text := _failure(v, found))}
     groups = {}
     for design in study.designs:
         names = {index: name for (d, index), name, _ in study.named_points() if d is design}
-        groups[design.name] = design_dataset(design, names, measured, failures)
+        of_design = measured
+        if design.refined and finest:
+            of_design = {n: m | _against(plan, found, n, finest[n]) for n, m in measured.items()}
+        groups[design.name] = design_dataset(design, names, of_design, failures)
+        if design.refined:
+            groups[design.name] = with_convergence(groups[design.name], plan.kind)
         if study.keep:
             groups[design.name] = kept_histories(plan, groups[design.name], names, study.keep)
     return made_results(plan, runs={}, metrics=_metrics(plan, found, failures), groups=groups)
+
+
+def _against(plan: Plan, found: Found, name: str, finest: str) -> dict[str, Any]:
+    """What was measured of a variant against the finest one, nothing where one failed."""
+    key = refined_key(plan.kind, plan.variants[name], plan.variants[finest])
+    kept = found.measured.get(key)
+    return dict(kept.value) if kept is not None else {}
 
 
 def _failure(variant: Planned, found: Found) -> str:

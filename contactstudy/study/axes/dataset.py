@@ -126,15 +126,24 @@ def _fill(into: Array, values: Any, labels: list[list[str]]) -> None:
             _fill(into[k, ...], values[label], labels[1:])
 
 
-def write_csv(groups: Mapping[str, xr.Dataset], path: Path) -> Path:
-    """Write datasets of designs: a line a variant, a column a key and each thing measured."""
-    with writing(path) as temporary, temporary.open("w", encoding="utf-8", newline="") as stream:
-        writer = csv.writer(stream, lineterminator="\n")
-        for data in groups.values():
-            columns = dict(_columns(data))
+def write_csv(groups: Mapping[str, xr.Dataset], folder: Path) -> list[Path]:
+    """Write datasets of designs: a line a variant, a column a key and each thing measured.
+
+    The only design, and that of ``[sweep]``, is `CSV_FILE`; others have their names.
+    """
+    written = []
+    for name, data in groups.items():
+        alone = len(groups) == 1
+        written.append(folder / (CSV_FILE if alone else f"{name}.csv"))
+        columns = dict(_columns(data))
+        with (
+            writing(written[-1]) as temporary,
+            temporary.open("w", encoding="utf-8", newline="") as stream,
+        ):
+            writer = csv.writer(stream, lineterminator="\n")
             writer.writerow([*columns])
             writer.writerows(zip(*columns.values(), strict=True))
-    return path
+    return written
 
 
 def _columns(data: xr.Dataset) -> Iterator[tuple[str, list[Any]]]:
@@ -148,8 +157,8 @@ def _columns(data: xr.Dataset) -> Iterator[tuple[str, list[Any]]]:
             spread = xr.broadcast(variable, like)[0].transpose(*dims)
             yield _heading(str(name), variable), spread.values.ravel().tolist()
     for name, variable in data.data_vars.items():
-        if "sample" in variable.dims:
-            continue
+        if "sample" in variable.dims or not set(dims) <= set(variable.dims):
+            continue  # histories, and what a refinement says of all its variants
         others = [d for d in variable.dims if d not in dims]
         stacked = variable.transpose(*dims, *others).values.reshape(like.size, -1)
         labels = _products([data[d].values.tolist() for d in others])

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from contactstudy.exceptions import ContactStudyError
 from contactstudy.executor import Outcome, Progress, Task, run_tasks
 from contactstudy.reporter import Bars, Reporter
 from contactstudy.store import Kept, Store
+from contactstudy.study.axes.swept import Swept, finest_points
 from contactstudy.study.kind import Study, imported
 
 if TYPE_CHECKING:
@@ -20,6 +22,17 @@ _CHUNK = 32  # variants that one task measures
 _HERE = 16  # variants at most for which no process is started
 
 
+@dataclass(frozen=True)
+class Asked:
+    """Something to measure: function, study, and keys of its pieces of work by name."""
+
+    measuring: str
+    study: Study
+    keys: Mapping[str, str]
+    #: Those of the finest variant, which it is compared with.
+    finest: Mapping[str, str] | None = None
+
+
 def measure(
     plan: Plan, found: Mapping[Piece, Kept], jobs: int, reporter: Reporter
 ) -> dict[str, Kept]:
@@ -27,46 +40,69 @@ def measure(
 
     What is measured already is not measured again.
     """
-    store = plan.measures
-    whole = [v for v in plan.variants.values() if all(found[p].value for p in v.pieces.values())]
-    kept = {v.key: store.load(MEASURED, v.key) for v in whole}
-    todo = [v for v in whole if kept[v.key].value is None]
+    store, wanted = plan.measures, dict(_wanted(plan, found))
+    kept = {key: store.load(MEASURED, key) for key in wanted}
+    todo = [key for key, one in kept.items() if one.value is None]
     tasks: list[Task] = []
-    owners: dict[str, Sequence[Planned]] = {}
+    owners: dict[str, Sequence[str]] = {}
     size = min(_CHUNK, max(1, -(-len(todo) // (2 * jobs))))
     for k in range(0, len(todo), size):
         name, own = f"norms {k + 1}", todo[k : k + size]
-        variants = [(v.study, {n: p.key for n, p in v.pieces.items()}) for v in own]
-        arguments = (plan.kind.measuring, plan.store, variants)
-        tasks.append(Task(name, measure_variants, arguments, here=len(todo) <= _HERE))
+        arguments = (plan.store, [wanted[key] for key in own])
+        tasks.append(Task(name, measure_all, arguments, here=len(todo) <= _HERE))
         owners[name] = own
     bars, errors = Bars(reporter, dict.fromkeys(owners, "norms")), list[ContactStudyError]()
 
     def finished(name: str, outcome: Outcome) -> None:
         if outcome.error is not None:
             errors.append(outcome.error)
-        for variant, value in zip(owners[name], outcome.value or (), strict=outcome.error is None):
-            store.save(MEASURED, variant.key, value)
+        for key, value in zip(owners[name], outcome.value or (), strict=outcome.error is None):
+            store.save(MEASURED, key, value)
         bars.end(name, outcome.error is None)
 
     run_tasks(tasks, jobs, bars, finished)
     if errors:
         raise errors[0]
-    return kept | {v.key: store.load(MEASURED, v.key) for v in todo}
+    return kept | {key: store.load(MEASURED, key) for key in todo}
 
 
-def measure_variants(
-    measuring: str,
-    store: Store,
-    variants: Sequence[tuple[Study, Mapping[str, str]]],
-    progress: Progress,
-) -> list[Any]:
-    """Measure variants, given with the keys of their pieces; the body of a worker process."""
-    function, found = imported(measuring), []
-    for study, keys in variants:
-        pieces = {name: store.load(name, key) for name, key in keys.items()}
-        for kept in pieces.values():
-            if kept.value is None:
-                raise ContactStudyError(f"{kept.damage or 'a finished run is lost'}; run it again")
-        found.append(function(study, {name: kept.value for name, kept in pieces.items()}))
+def _wanted(plan: Plan, found: Mapping[Piece, Kept]) -> Iterator[tuple[str, Asked]]:
+    """All that can be measured, under its key."""
+    from contactstudy.study.plan import refined_key
+
+    def whole(variant: Planned) -> bool:
+        return all(found[piece].value for piece in variant.pieces.values())
+
+    for variant in plan.variants.values():
+        if whole(variant):
+            yield variant.key, Asked(plan.kind.measuring, variant.study, variant.keys)
+    assert isinstance(plan.study, Swept)
+    for name, best in finest_points(plan.study) if plan.kind.refining else ():
+        variant, finest = plan.variants[name], plan.variants[best]
+        if whole(variant) and whole(finest):
+            key = refined_key(plan.kind, variant, finest)
+            yield key, Asked(plan.kind.refining, variant.study, variant.keys, finest.keys)
+
+
+def measure_all(store: Store, asked: Sequence[Asked], progress: Progress) -> list[Any]:
+    """Measure; the body of a worker process."""
+    found, finest = list[Any](), dict[str, Mapping[str, Any]]()
+    for one in asked:
+        arguments = [one.study, _pieces(store, one.keys)]
+        if one.finest is not None:
+            key = repr(one.finest)
+            if key not in finest:
+                finest = {key: _pieces(store, one.finest)}
+            arguments.append(finest[key])
+        found.append(imported(one.measuring)(*arguments))
     return found
+
+
+def _pieces(store: Store, keys: Mapping[str, str]) -> dict[str, Any]:
+    kept = {name: store.load(name, key) for name, key in keys.items()}
+    for one in kept.values():
+        if one.value is None:
+            raise ContactStudyError(
+                f"{one.damage or 'a finished run is lost'}; run the study again"
+            )
+    return {name: one.value for name, one in kept.items()}

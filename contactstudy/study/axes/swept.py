@@ -135,6 +135,16 @@ class Swept:
                 yield (design, index), digest(values, 8), values
 
 
+def finest_points(study: Swept) -> Iterator[tuple[str, str]]:
+    """Names of each variant of a refinement and of its finest one."""
+    names = {(d.name, index): name for (d, index), name, _ in study.named_points()}
+    for design in study.designs:
+        if design.refined:
+            last = len(design.series[design.refined]) - 1
+            for index, _ in design.points():
+                yield names[design.name, index], names[design.name, (*index[:-1], last)]
+
+
 def told(values: Mapping[str, Any]) -> str:
     """Values of a variant for the user; keys without their table where that is clear."""
     short = [key.rpartition(".")[2] for key in values]

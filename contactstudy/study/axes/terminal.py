@@ -5,18 +5,19 @@ from __future__ import annotations
 import tempfile
 from pathlib import Path
 
+from rich.box import SIMPLE
 from rich.table import Table
+from rich.text import Text
 
 from contactstudy.study.axes.dataset import FAILURE
 from contactstudy.study.axes.swept import Swept
-from contactstudy.study.plan import plan_study
+from contactstudy.study.axes.tables import tables
+from contactstudy.study.plan import Plan, plan_study
 from contactstudy.study.results import StudyResults
-
-_ROWS = 24  # of a table of variants
 
 
 def check_swept(study: Swept) -> list[str]:
-    """Number of variants and of runs that are computed for them."""
+    """Number of variants and of runs that are computed for them, and the expected time."""
     with tempfile.TemporaryDirectory() as folder:
         plan = plan_study(study, Path(folder))
     needed = sum(len(v.pieces) for v in plan.variants.values())
@@ -25,27 +26,36 @@ def check_swept(study: Swept) -> list[str]:
         f"({', '.join(design.series)})"
         for design in study.designs
     ]
-    runs = len(plan.pieces)
-    seconds = sum(plan.kind.seconds(p.study, p.work.name) for p in plan.pieces)
-    return [
-        *found,
-        f"{len(plan.variants)} variants with {needed} runs, of which {runs} differ; "
-        f"about {duration(seconds / 2)} with two at a time",
-    ]
+    seconds = expected_seconds(plan)
+    told = f"; about {duration(seconds / 2)} with two at a time" if seconds else ""
+    runs = f"{needed} runs, of which {len(plan.pieces)} differ"
+    return [*found, f"{len(plan.variants)} variants with {runs}{told}"]
+
+
+def expected_seconds(plan: Plan) -> float:
+    """Seconds that all pieces of a plan take together, about."""
+    return sum(plan.kind.seconds(p.study, p.work.name) for p in plan.pieces)
 
 
 def summary(results: StudyResults) -> list[Table | str]:
-    """Of each design the first thing measured, for each run or what else it depends on."""
+    """Numbers of variants, and the tables of each design."""
     made: list[Table | str] = []
     for name, data in results.designs.items():
         failed = int((data[FAILURE] != "").sum())
         good = data["variant"].size - failed
         made.append(f"{name}: {good} variants" + (f", {failed} failed" if failed else ""))
+    for found in tables(results):
+        table = Table(title=Text(found.title), box=SIMPLE, collapse_padding=True)
+        for k, heading in enumerate(found.columns):
+            table.add_column(Text(heading), justify="left" if k < found.left else "right")
+        for row in found.rows:
+            table.add_row(*(Text(cell) for cell in row))
+        made.append(table)
     return made
 
 
 def duration(seconds: float) -> str:
     """Seconds as people say them."""
     if seconds < 90:
-        return f"{seconds:.0f} s"
+        return f"{max(seconds, 1):.0f} s"
     return f"{seconds / 60:.0f} min" if seconds < 5400 else f"{seconds / 3600:.1f} h"

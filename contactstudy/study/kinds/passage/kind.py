@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-from contactstudy.study.kind import Kind, later
+from contactstudy.study.kind import Kind, Quantity, later
 from contactstudy.study.kinds.passage.runs import SOLVERS
 from contactstudy.study.kinds.passage.schema import SECTIONS
 
 _HERE = "contactstudy.study.kinds.passage"
+_FORCE, _NAME = "contact_force", "contact force"
+_PART = {"signal": (_FORCE,), "part": ("irregularity", "dynamic")}
+_TOTAL = {"signal": (_FORCE,), "part": ("total",)}
 
 
 class PassageKind(Kind):
@@ -18,6 +21,13 @@ class PassageKind(Kind):
     computing = f"{_HERE}.execution:execute_run"
     batching = f"{_HERE}.execution:execute_batch"
     measuring = f"{_HERE}.measures:measure"
+    refining = f"{_HERE}.measures:against_finest"
+    shown: ClassVar = (
+        Quantity("relative_l2", f"Error of the {_NAME}, {{part}} part (%)", _PART, 100.0),
+        Quantity("relative_l2", f"Error of the {_NAME}, total (%)", _TOTAL, 100.0),
+        Quantity("largest", f"Largest {_NAME} (kN)", {"signal": (_FORCE,)}, 1e-3),
+        Quantity("from_finest", f"Difference of the {_NAME} from the finest (%)", _PART, 100.0),
+    )
     about = "Wheels run over a track, by several models that are compared."
     tables = SECTIONS
     inner_tables: ClassVar = {"runs": SOLVERS}

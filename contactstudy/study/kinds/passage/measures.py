@@ -63,6 +63,26 @@ def measure(study: Study, found: Mapping[str, Any]) -> Measured:
     return {name: entry for name, entry in made.items() if entry["values"]}
 
 
+def against_finest(study: Study, found: Mapping[str, Any], finest: Mapping[str, Any]) -> Measured:
+    """Measure how far the runs of a variant are from the same runs of the finest one.
+
+    ::
+
+        from_finest (run, signal, part)     relative L2 difference, 0 of runs that are the same
+    """
+    own, best = with_twins(study, found), with_twins(study, finest)
+    start = study.journey.start + study.journey.fade_in
+    values: dict[str, Any] = {
+        name: {
+            signal: _by_part(entry, "relative_l2")
+            for signal, entry in compare_runs(run, best[name], start, False).items()
+        }
+        for name, run in own.items()
+    }
+    text = "relative L2 difference from the same run of the finest variant"
+    return {"from_finest": measured("1", text, [*_RUN, "part"], values)}
+
+
 def _by_part(entry: Mapping[str, Any], name: str) -> dict[str, Any]:
     keys = {part: name if part == "total" else f"{name}_{part}" for part in PARTS}
     return {part: entry[key] for part, key in keys.items() if key in entry}

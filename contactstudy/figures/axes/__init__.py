@@ -1,0 +1,33 @@
+"""Figures of studies with axes: one a quantity and design, of the form that its dimensions ask."""
+
+from __future__ import annotations
+
+from collections import Counter
+
+from contactstudy.figures.axes import lines, maps, refined, samples
+from contactstudy.plot.drawing import Drawing
+from contactstudy.study.axes.shown import Shown, drawn, shown
+from contactstudy.study.results import StudyResults
+
+
+def drawings(results: StudyResults) -> list[Drawing]:
+    """All that these results can fill; none for a study without axes."""
+    made = [one for quantity in shown(results) for one in _of(quantity)]
+    count, found = Counter[str](), []
+    for one in made:  # names of files are distinct
+        count[one.name] += 1
+        number = f"_{count[one.name]}" if count[one.name] > 1 else ""
+        found.append(Drawing(one.name + number, one.caption, one.draw))
+    return found
+
+
+def _of(quantity: Shown) -> list[Drawing]:
+    if quantity.data.attrs["refined"]:
+        return refined.drawings(quantity)
+    free = [dim for dim in quantity.axes if not drawn(quantity.data, dim)]
+    if not free:
+        return samples.drawings(quantity)
+    longer = sorted((quantity.data.sizes[dim] for dim in free), reverse=True)
+    if len(free) == 1 or (len(free) == 2 and longer[1] <= lines.FEW):
+        return lines.drawings(quantity, free)
+    return maps.drawings(quantity, free) if len(free) <= maps.MOST else []

@@ -1,0 +1,104 @@
+"""A quantity over one key, a line a run; a second, short one gives panels or lines."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from contactstudy.arrays import Array
+from contactstudy.figures.axes import parts
+from contactstudy.plot.drawing import Drawing
+from contactstudy.plot.style import LineStyle, figure_legend, new_figure, run_styles
+from contactstudy.plot.text import capital, label
+from contactstudy.study.axes.axis import AxisOf, axis_of
+from contactstudy.study.axes.shown import RUN, Shown
+
+FEW = 4
+"""Values of a second key for which there are panels or lines."""
+_CAPTION = 8  # lines that a caption describes
+
+
+def drawings(quantity: Shown, free: list[str]) -> list[Drawing]:
+    """One figure."""
+    long, *short = sorted(free, key=lambda dim: -quantity.data.sizes[dim])
+    return [
+        Drawing(
+            quantity.file, _caption(quantity, long, short), lambda: _draw(quantity, long, short)
+        )
+    ]
+
+
+def _curves(
+    quantity: Shown, long: str, short: list[str]
+) -> dict[tuple[str, str], tuple[Array, Array]]:
+    """(panel, line) -> values and half their confidence intervals along the long key."""
+    over, found = parts.samples_of(quantity), {}
+    names = axis_of(quantity.data, short[0]).names if short else ("",)
+    for run in quantity.runs:
+        mean, half = parts.averaged(quantity.of_run(run), over)
+        mean = mean.transpose(*short, long)
+        dims = [d for d in quantity.of_run(run).dims if d not in over]
+        half = half.transpose([dims.index(d) for d in (*short, long)])
+        rows = zip(np.atleast_2d(mean.values), np.atleast_2d(half), names, strict=True)
+        for values, width, name in rows:
+            place = ("", name) if len(quantity.runs) == 1 else (name, label(run))
+            found[place] = values, width
+    return found
+
+
+def _draw(quantity: Shown, long: str, short: list[str]) -> Figure:
+    curves, along = _curves(quantity, long, short), axis_of(quantity.data, long)
+    panels = list(dict.fromkeys(panel for panel, _ in curves))
+    lines = list(dict.fromkeys(line for _, line in curves))
+    styles = run_styles(lines, None)
+    columns = min(2, len(panels))
+    rows = -(-len(panels) // columns)
+    figure = new_figure(0.6 + 2.5 * rows, 5.4 if columns == 1 else 6.3)
+    grid = figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
+    logarithmic = parts.wide(np.concatenate([v for v, _ in curves.values()]))
+    holes = along.at[parts.failed(quantity, [long])]
+    for axes, panel in zip(grid.flat, panels, strict=False):
+        for line in lines:
+            _line(axes, along, *curves[panel, line], styles[line], line)
+        parts.mark_failed(axes, holes)
+        parts.label_axis(axes, along, "x")
+        axes.set_title(panel)
+        axes.set_yscale("log" if logarithmic else "linear")
+    for axes in grid.flat[len(panels) :]:
+        axes.set_visible(False)
+    figure.supylabel(quantity.title, fontsize=9)
+    figure_legend(figure, grid.flat[0])
+    return figure
+
+
+def _line(
+    axes: Axes, along: AxisOf, values: Array, half: Array, style: LineStyle, name: str
+) -> None:
+    order = np.argsort(along.at)
+    x, y, width = along.at[order], values[order], half[order]
+    marks: dict[str, Any] = {"marker": style.marker, "ms": 3.5, "mfc": "none"}
+    look: dict[str, Any] = style.line if along.numeric else {"color": style.color, "ls": "none"}
+    axes.plot(x, y, label=name or None, **look, **marks)
+    if np.any(width > 0.0):
+        axes.fill_between(x, y - width, y + width, color=style.color, alpha=0.18, lw=0)
+
+
+def _caption(quantity: Shown, long: str, short: list[str]) -> str:
+    along, curves = axis_of(quantity.data, long), _curves(quantity, long, short)
+    told = [
+        f"{', '.join(part for part in place if part)} {parts.ends(values, along.names)}".strip()
+        for place, (values, _) in list(curves.items())[:_CAPTION]
+    ]
+    text = f"{capital(quantity.title)} over the {along.title}"
+    if RUN in quantity.values.dims and len(quantity.runs) == 1:
+        text += f", run {label(quantity.runs[0])}"
+    text += f": {'; '.join(told)}."
+    if over := parts.samples_of(quantity):
+        n = int(np.prod([quantity.data.sizes[d] for d in over]))
+        text += f" Means of {n} samples, shaded: 95 % confidence interval of the mean."
+    if parts.failed(quantity, [long]).any():
+        text += " Crosses: variants that could not be computed."
+    return text

@@ -1,0 +1,64 @@
+"""The distribution of a quantity over a sample, and how its mean levels off as the sample grows."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from contactstudy.compare.statistics import running, spread
+from contactstudy.figures.axes import parts
+from contactstudy.plot.drawing import Drawing
+from contactstudy.plot.style import figure_legend, new_figure
+from contactstudy.plot.text import capital, label, number
+from contactstudy.study.axes.dataset import FAILURE
+from contactstudy.study.axes.shown import Shown
+
+
+def drawings(quantity: Shown) -> list[Drawing]:
+    """One figure for a sample of two or more."""
+    if quantity.data["variant"].size < 2:
+        return []
+    return [Drawing(quantity.file, _caption(quantity), lambda: _draw(quantity))]
+
+
+def _caption(quantity: Shown) -> str:
+    told = []
+    for run in quantity.runs:
+        s = spread(quantity.of_run(run).values)
+        told.append(
+            f"{label(run)} mean {number(s.mean)} ± {number(s.half_width, 2)}, from "
+            f"{number(s.low)} to {number(s.high)}".strip()
+        )
+    n = quantity.data["variant"].size
+    text = (
+        f"{capital(quantity.title)} in a sample of {n}: left, the share of the sample below each "
+        "value; right, the mean of the first n with its 95 % confidence interval (Student). "
+        f"{capital('; '.join(told))}."
+    )
+    lost = int((quantity.data[FAILURE] != "").sum())
+    return text + (f" {lost} of the variants could not be computed." if lost else "")
+
+
+def _draw(quantity: Shown) -> Figure:
+    figure = new_figure(3.3)
+    left, right = figure.subplots(1, 2)
+    every = quantity.values.values
+    for run, style in parts.styles(quantity).items():
+        values = quantity.of_run(run).values.ravel()
+        ordered = np.sort(values[np.isfinite(values)])
+        share = np.arange(1, len(ordered) + 1) / len(ordered)
+        left.step(ordered, share, where="post", label=label(run) or None, **style.line)
+        n, mean, half = running(values)
+        right.plot(n, mean, **style.line)
+        right.fill_between(n, mean - half, mean + half, color=style.color, alpha=0.18, lw=0)
+    if parts.wide(every):
+        left.set_xscale("log")
+        right.set_yscale("log")
+    low, high = np.nanmin(every), np.nanmax(every)
+    margin = 0.08 * (high - low) or 1.0
+    if not parts.wide(every):
+        right.set_ylim(low - margin, high + margin)
+    left.set(xlabel=quantity.title, ylabel="Share of the sample", ylim=(0, 1))
+    right.set(xlabel="Number of samples", ylabel="Mean")
+    figure_legend(figure, left)
+    return figure

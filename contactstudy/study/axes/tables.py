@@ -1,0 +1,116 @@
+"""Tables of a study with axes, as plain data for the terminal and for the report."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+
+from contactstudy.arrays import Array
+from contactstudy.compare.statistics import spread
+from contactstudy.plot.text import capital, label, number
+from contactstudy.study.axes.axis import axis_of, title_of
+from contactstudy.study.axes.convergences import convergences
+from contactstudy.study.axes.shown import Shown, drawn, shown
+from contactstudy.study.results import StudyResults
+
+_ROWS = 24
+
+
+@dataclass(frozen=True)
+class TableData:
+    """Columns, the first `left` of them texts, and cells."""
+
+    design: str
+    title: str
+    columns: Sequence[str]
+    rows: Sequence[Sequence[str]]
+    left: int = 1
+
+
+def tables(results: StudyResults) -> Iterator[TableData]:
+    """Refinements; spreads of samples; values of small sweeps, ends of large ones."""
+    found: dict[str, list[Shown]] = {}
+    for quantity in shown(results):
+        found.setdefault(quantity.data.attrs["design"], []).append(quantity)
+    for design, quantities in found.items():
+        data = quantities[0].data
+        free = [d for d in quantities[0].axes if not drawn(data, d)]
+        if data.attrs["refined"]:
+            yield _refinement(design, quantities)
+        elif not free:
+            yield _sample(design, quantities)
+        elif np.prod([data.sizes[d] for d in free]) <= _ROWS:
+            yield from (_values(design, quantity, free) for quantity in quantities)
+        else:
+            yield _ends(design, quantities, free)
+
+
+def _refinement(design: str, quantities: list[Shown]) -> TableData:
+    data = quantities[0].data
+    rows = [
+        [
+            quantity.title,
+            line.name,
+            _cell(line.values[-1]),
+            _cell(line.limit),
+            line.order_text.removeprefix("order "),
+            _cell(line.uncertainty, 2),
+            _cell(100.0 * line.index, 2),
+            line.verdict,
+        ]
+        for quantity in quantities
+        for line in convergences(quantity)
+    ]
+    expected = data.attrs.get("expected_order")
+    title = f"Refinement of the {title_of(data.attrs['refined'])}"
+    title += f", expected order {expected:g}" if expected else ""
+    columns = ["quantity", "run", "finest", "limit", "order", "band ±", "GCI (%)", "verdict"]
+    return TableData(design, title, columns, rows, 2)
+
+
+def _sample(design: str, quantities: list[Shown]) -> TableData:
+    rows = []
+    for quantity in quantities:
+        for run in quantity.runs:
+            s = spread(quantity.of_run(run).values)
+            cells = (s.mean, s.half_width, s.deviation, s.low, s.high)
+            rows.append([quantity.title, label(run), str(s.n), *(_cell(c) for c in cells)])
+    columns = ["quantity", "run", "n", "mean", "± 95 %", "deviation", "least", "largest"]
+    return TableData(design, "Spread over the sample", columns, rows, 2)
+
+
+def _values(design: str, quantity: Shown, free: list[str]) -> TableData:
+    axes = [axis_of(quantity.data, dim) for dim in free]
+    means = [_mean(quantity, run, free) for run in quantity.runs]
+    rows = [
+        [*(a.names[k] for a, k in zip(axes, index, strict=True)), *(_cell(m[index]) for m in means)]
+        for index in product(*(range(len(a.names)) for a in axes))
+    ]
+    columns = [*(title_of(d) for d in free), *(label(run) or "value" for run in quantity.runs)]
+    return TableData(design, capital(quantity.title), columns, rows, len(free))
+
+
+def _ends(design: str, quantities: list[Shown], free: list[str]) -> TableData:
+    axes = [axis_of(quantities[0].data, dim) for dim in free]
+    places = [", ".join(names) for names in product(*(a.names for a in axes))]
+    rows = []
+    for quantity in quantities:
+        for run in quantity.runs:
+            values = _mean(quantity, run, free).ravel()
+            low, high = int(np.nanargmin(values)), int(np.nanargmax(values))
+            ends = [_cell(values[low]), places[low], _cell(values[high]), places[high]]
+            rows.append([quantity.title, label(run), *ends])
+    columns = ["quantity", "run", "least", "at", "largest", "at"]
+    return TableData(design, "Smallest and largest values", columns, rows, 2)
+
+
+def _mean(quantity: Shown, run: str, free: list[str]) -> Array:
+    over = [d for d in quantity.axes if d not in free]
+    return np.asarray(quantity.of_run(run).mean(over).transpose(*free).values)
+
+
+def _cell(value: float, digits: int = 3) -> str:
+    return number(value, digits) if np.isfinite(value) else "–"
