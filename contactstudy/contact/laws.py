@@ -7,15 +7,31 @@ Vertical contact is unilateral: lambda >= 0 always; lateral contact (`bilateral`
 
 import math
 from dataclasses import dataclass
-from typing import Annotated, ClassVar
+from functools import cached_property
+from typing import Annotated, ClassVar, Protocol
 
 import numpy as np
 
 from contactstudy.arrays import Array
+from contactstudy.contact import law_forces
 from contactstudy.exceptions import NumericalError
 from contactstudy.validation import Above, Parameters, Unit
 
-_ITERATIONS = 100
+
+class Law(Protocol):
+    """A law as its compiled form knows it, see `law_forces`."""
+
+    @property
+    def kind(self) -> int:
+        """One of the kinds of `law_forces`."""
+
+    @property
+    def numbers(self) -> Array:
+        """What its kind wants."""
+
+    @property
+    def softness(self) -> float:
+        """Least compliance of the law [m/N]."""
 
 
 @dataclass(frozen=True)
@@ -28,6 +44,12 @@ class LinearSpring(Parameters):
     """
 
     stiffness: Annotated[float, Unit("N/m"), Above(0), "contact stiffness k_r"]
+    kind: ClassVar[int] = law_forces.LINEAR
+
+    @property
+    def numbers(self) -> Array:
+        """See `law_forces.wheel_forces`."""
+        return np.array([self.stiffness])
 
     @property
     def softness(self) -> float:
@@ -40,6 +62,8 @@ class RigidContact:
     """No contact deformation: g = 0 while pressed."""
 
     softness: ClassVar[float] = 0.0
+    kind: ClassVar[int] = law_forces.RIGID
+    numbers: ClassVar[Array] = np.zeros(0)
 
 
 @dataclass(frozen=True)
@@ -51,6 +75,16 @@ class HertzSpring(Parameters):
 
     stiffness: Annotated[float, Unit("N/m**1.5"), Above(0), "Hertz stiffness k_H"]
     softness: ClassVar[float] = math.inf
+    kind: ClassVar[int] = law_forces.HERTZ
+
+    @property
+    def numbers(self) -> Array:
+        """See `law_forces.wheel_forces`."""
+        return np.array([self.stiffness])
+
+    def approach_at(self, load: float) -> float:
+        """Approach [m] under a load [N]."""
+        return float((load / self.stiffness) ** (2 / 3))
 
 
 @dataclass(frozen=True)
@@ -58,17 +92,55 @@ class MovingForce:
     """The static load itself, whatever wheel and rail do."""
 
     softness: ClassVar[float] = math.inf
+    kind: ClassVar[int] = law_forces.MOVING
+    numbers: ClassVar[Array] = np.zeros(0)
 
 
-ContactLaw = LinearSpring | RigidContact | HertzSpring | MovingForce
+@dataclass(frozen=True, eq=False)
+class PressSpring:
+    """The force of a static press over its approach, zero when apart.
+
+    F^(2/3), over which Hertz's law is straight, is a monotone cubic with a continuous slope between
+    the rows of a table (F. N. Fritsch and R. E. Carlson, SIAM J. Numer. Anal. 17 (1980) 238), and
+    straight beyond the last: there F grows with the 3/2 power.
+
+    Approaches (k,) [m] and forces (k,) [N], both growing, without the first touch (0, 0).
+    """
+
+    approach: Array
+    force: Array
+    softness: ClassVar[float] = math.inf
+    kind: ClassVar[int] = law_forces.PRESS
+
+    @property
+    def largest(self) -> float:
+        """Largest force of the table [N]."""
+        return float(self.force[-1])
+
+    def approach_at(self, load: float) -> float:
+        """Approach [m] under a load [N] of the table."""
+        return float(np.interp(load ** (2 / 3), self.force ** (2 / 3), self.approach))
+
+    @cached_property
+    def numbers(self) -> Array:
+        """See `law_forces.wheel_forces`."""
+        from scipy.interpolate import PchipInterpolator
+
+        d, q = np.r_[0.0, self.approach], np.r_[0.0, self.force] ** (2 / 3)
+        return np.concatenate([[len(d)], d, q, PchipInterpolator(d, q).derivative()(d)])
+
+
+ContactLaw = LinearSpring | RigidContact | HertzSpring | PressSpring | MovingForce
+"""Laws that feel the irregularity at one place."""
 
 
 def point_forces(
-    law: ContactLaw,
+    law: Law,
     compliance: Array,
     free_gap: Array,
     static_loads: Array,
     bilateral: bool = False,
+    shape: Array | None = None,
 ) -> Array:
     """Forces lambda (nw,) [N] of all wheels that satisfy the law at the end of a step.
 
@@ -81,116 +153,31 @@ def point_forces(
     static_loads : ndarray
         (nw,) [N].
     bilateral : bool
-        Whether tension is possible; not for Hertz's law.
+        Whether tension is possible; for linear and rigid contact only.
+    shape : ndarray, optional
+        Of the profile under each wheel (nw, m), for the laws of `patch_laws` [m].
 
     Raises
     ------
     NumericalError
-        If the nonlinear equations of several wheels do not converge.
+        If the equations of several wheels do not converge.
     """
-    if len(free_gap) == 1:
-        W, gap, load = float(compliance[0, 0]), float(free_gap[0]), float(static_loads[0])
-        return np.array([_force_of_one(law, W, gap, load, bilateral)])
-    match law:
-        case MovingForce():
-            return static_loads.copy()
-        case HertzSpring(stiffness=k_hertz):
-            return _hertz_many(k_hertz, compliance, free_gap)
-        case LinearSpring(stiffness=k_r):
-            # lambda = F - k_r (g* + W lambda)  =>  (W + 1/k_r) lambda = F/k_r - g*
-            flexibility = compliance + np.eye(len(free_gap)) / k_r
-            return _linear_many(flexibility, static_loads / k_r - free_gap, bilateral)
-        case RigidContact():
-            return _linear_many(compliance, -free_gap, bilateral)
+    force = np.empty(len(free_gap))
+    left = law_forces.wheel_forces(
+        law.kind,
+        law.numbers,
+        np.zeros((len(free_gap), 0)) if shape is None else shape,
+        np.ascontiguousarray(compliance),
+        np.ascontiguousarray(free_gap),
+        np.ascontiguousarray(static_loads),
+        bilateral,
+        force,
+    )
+    if left:
+        raise NumericalError(unsolved(len(force), left))
+    return force
 
 
-def _force_of_one(
-    law: ContactLaw, compliance: float, free_gap: float, static_load: float, bilateral: bool
-) -> float:
-    """Closed forms for a single wheel."""
-    match law:
-        case MovingForce():
-            return static_load
-        case HertzSpring(stiffness=k_hertz):
-            return _hertz_one(k_hertz, compliance, free_gap)
-        case LinearSpring(stiffness=k_r):
-            force = (static_load - k_r * free_gap) / (1.0 + k_r * compliance)
-        case RigidContact():
-            force = -free_gap / compliance
-    # max(0.0, nan) would hide a number that is none
-    return 0.0 if force < 0.0 and not bilateral else force
-
-
-def _linear_many(flexibility: Array, target: Array, bilateral: bool) -> Array:
-    """Solve flexibility @ lambda = target, or its complementarity problem with lambda >= 0.
-
-    The linear solution counts if nowhere tensile. Otherwise projected Gauss-Seidel sweeps, which
-    converge for every positive definite matrix, find who is apart.
-    """
-    force = np.asarray(np.linalg.solve(flexibility, target))
-    if bilateral or not np.any(force < 0.0):
-        return force
-    force = np.maximum(force, 0.0)
-    for _ in range(1000 * _ITERATIONS):
-        before = force.copy()
-        for i in range(len(force)):
-            rest = target[i] - flexibility[i] @ force + flexibility[i, i] * force[i]
-            force[i] = max(0.0, rest / flexibility[i, i])
-        if np.abs(force - before).max() <= 1e-14 * np.abs(force).max(initial=1e-300):
-            return force
-    raise NumericalError(f"contact of {len(force)} wheels: the contact forces do not converge")
-
-
-def _hertz_one(k_hertz: float, compliance: float, free_gap: float) -> float:
-    """Scalar Newton in the penetration d: g* + W k_H d^(3/2) + d = 0.
-
-    The left side is convex and increasing, so Newton's method started on its right side, at
-    d = -g*, decreases steadily to the solution.
-    """
-    if free_gap >= 0.0:
-        return 0.0
-    if not math.isfinite(free_gap):
-        return math.nan  # reported by the stepper, with step and position
-    d = -free_gap
-    stiffness = compliance * k_hertz
-    for _ in range(_ITERATIONS):
-        root = math.sqrt(d)
-        move = (free_gap + stiffness * d * root + d) / (1.5 * stiffness * root + 1.0)
-        d -= move
-        if abs(move) <= 4e-16 * abs(d):
-            break
-        d = max(d, 0.0)
-    return k_hertz * d * math.sqrt(d)
-
-
-def _hertz_many(k_hertz: float, compliance: Array, free_gap: Array) -> Array:
-    """Newton with a line search on g* + W k_H d_+^(3/2) + d = 0, d < 0 being an open gap."""
-    n = len(free_gap)
-    if not np.all(np.isfinite(free_gap)):
-        return np.full(n, np.nan)  # reported by the stepper, with step and position
-
-    def residual(d: Array) -> Array:
-        return free_gap + compliance @ (k_hertz * np.maximum(d, 0.0) ** 1.5) + d
-
-    d = -free_gap
-    r = residual(d)
-    for _ in range(_ITERATIONS):
-        if np.abs(r).max() <= 1e-15 * np.abs(free_gap).max():
-            break
-        # I + W D is regular for W positive definite and D >= 0
-        slope = 1.5 * k_hertz * np.sqrt(np.maximum(d, 0.0))
-        move = -np.linalg.solve(np.eye(n) + compliance * slope, r)
-        length, size = 1.0, np.linalg.norm(r)
-        while length > 1e-10:
-            trial = residual(d + length * move)
-            if np.linalg.norm(trial) < size:
-                break
-            length *= 0.5
-        else:
-            break  # no further decrease: either solved to rounding, or stuck (checked below)
-        d, r = d + length * move, trial
-    if np.abs(r).max() > 1e-12 * np.abs(free_gap).max():
-        raise NumericalError(
-            f"Hertz contact of {n} wheels does not converge: {np.abs(r).max():.3g} m left"
-        )
-    return k_hertz * np.maximum(d, 0.0) ** 1.5
+def unsolved(n_wheels: int, left: float) -> str:
+    """Message about equations of the contact that do not converge."""
+    return f"contact of {n_wheels} wheels does not converge: {left:.3g} m left"

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from contactstudy.arrays import Array, IntArray
-from contactstudy.contact.laws import ContactLaw, point_forces
+from contactstudy.contact.laws import Law, point_forces
 from contactstudy.dynamics.banded import Factor
 from contactstudy.dynamics.rows import dense_rows, row_products, row_values
 from contactstudy.dynamics.stepper import ContactStep
@@ -31,12 +31,15 @@ class PointGaps:
         Rows B.
     compliance : ndarray (n_times, nw)
         c [m/N]. Two wheels within one element do not share it: each feels its own.
+    shape : ndarray (n_times, nw, m)
+        Of the profile under each wheel, for the laws of `contact.patch_laws` [m]; else m = 0.
     """
 
     dofs: IntArray
     weights: Array
     compliance: Array
     irregularity: Array
+    shape: Array
 
     @staticmethod
     def rows(
@@ -59,7 +62,7 @@ class PointCoupling:
     Static loads (nw,) in N; bilateral: the contact holds in tension (lateral direction).
     """
 
-    law: ContactLaw
+    law: Law
     gaps: PointGaps
     static_loads: Array
     bilateral: bool = False
@@ -98,6 +101,6 @@ class AttachedPoint:
         compliance.flat[:: len(dofs) + 1] += local
         free_gap = row_values(dofs, weights, u_free) - gaps.irregularity[step]
         loads, bilateral = coupling.static_loads, coupling.bilateral
-        force = point_forces(coupling.law, compliance, free_gap, loads, bilateral)
+        force = point_forces(coupling.law, compliance, free_gap, loads, bilateral, gaps.shape[step])
         record = {"contact_force": force, "rail_residual": -local * force}
         return ContactStep(force @ rows, force @ moved, record)

@@ -8,6 +8,7 @@ import numpy as np
 
 from contactstudy.arrays import Array, IntArray
 from contactstudy.contact.filters import ContactFilter
+from contactstudy.contact.patch_laws import PatchLaw
 from contactstudy.dynamics.banded import LinearSystem
 from contactstudy.irregularity import Profile, faded
 from contactstudy.solvers.journey import Journey
@@ -81,6 +82,18 @@ class Passage(Generic[T]):
         return np.column_stack(
             [contact_filter(level, x) for level, x in zip(levels, ways, strict=True)]
         )
+
+    def seen(self, law: PatchLaw) -> tuple[Array, Array]:
+        """What each wheel feels at first touch (n_times, nw), the shape (n_times, nw, m) [m]."""
+        ways = np.ascontiguousarray(self.positions.T)
+        seen = [law.seen(self.faded(k), x) for k, x in enumerate(ways)]
+        m = max(shape.shape[1] for _, shape in seen)
+        # where a bedding reaches less far: never touched
+        shapes = [
+            np.pad(shape, ((0, 0), (0, m - shape.shape[1])), constant_values=-1.0)
+            for _, shape in seen
+        ]
+        return np.column_stack([felt for felt, _ in seen]), np.stack(shapes, axis=1)
 
     def faded(self, wheel: int) -> Profile:
         """The irregularity as a wheel meets it, faded in from its start."""

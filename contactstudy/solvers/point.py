@@ -10,7 +10,13 @@ import numpy as np
 
 from contactstudy.arrays import Array, IntArray
 from contactstudy.contact.filters import ContactFilter
-from contactstudy.contact.laws import ContactLaw, HertzSpring, LinearSpring, RigidContact
+from contactstudy.contact.laws import (
+    ContactLaw,
+    HertzSpring,
+    PressSpring,
+    RigidContact,
+)
+from contactstudy.contact.patch_laws import PatchLaw
 from contactstudy.contact.point_coupling import PointCoupling, PointGaps
 from contactstudy.contact.point_wheel import PointWheel
 from contactstudy.dynamics.stepper import Integrator, average_acceleration, generalised_alpha
@@ -18,6 +24,7 @@ from contactstudy.irregularity import Profile
 from contactstudy.solvers.journey import Journey
 from contactstudy.solvers.observers import Observer
 from contactstudy.solvers.passage import Passage
+from contactstudy.solvers.point_described import described_law, described_rail, warn_beyond
 from contactstudy.solvers.run import run_through
 from contactstudy.track.beam import BeamTrack
 from contactstudy.track.discrete import DiscreteTrack, not_discrete
@@ -27,6 +34,7 @@ from contactstudy.vehicle import Vehicle
 
 if TYPE_CHECKING:
     import xarray as xr
+
 
 RIGID_SPECTRAL_RADIUS = 0.5
 """Spectral radius of the integrator that a rigid contact gets when none is asked for."""
@@ -38,7 +46,7 @@ def point_contact(
     irregularity: Profile,
     journey: Journey,
     *,
-    law: ContactLaw,
+    law: ContactLaw | PatchLaw,
     contact_filter: ContactFilter | None = None,
     wheel: PointWheel | None = None,
     observers: Sequence[Observer] = (),
@@ -87,7 +95,7 @@ def point_contact(
     discrete = BeamTrack(track) if isinstance(track, Track) else track
     raise_if(not_discrete(discrete))
     problems = journey.problems_on(discrete.track, vehicle)
-    problems += _law_problems(law, discrete.direction, integrator)
+    problems += _law_problems(law, contact_filter, discrete.direction, integrator)
     for observer in observers:
         problems += observer.problems_on(journey)
     raise_if(problems)
@@ -96,23 +104,27 @@ def point_contact(
     passage = Passage(discrete, moving, irregularity, journey)
     coupling = point_coupling(passage, law, contact_filter, wheel)
     setup = time.perf_counter() - began
-    told = {"solver": "point", **_describe_rail(discrete), **_describe_law(law)}
+    told = {"solver": "point", **described_rail(discrete), **described_law(law)}
     if wheel is not None:
         told |= {"wheel": "modal", "wheel_modes": len(wheel.shapes)}
     data = run_through(passage, coupling, integrator, observers, told)
     data.attrs["seconds_setup"] += setup
+    warn_beyond(law, data)
     return data
 
 
 def point_coupling(
     passage: Passage[DiscreteTrack],
-    law: ContactLaw,
+    law: ContactLaw | PatchLaw,
     contact_filter: ContactFilter | None = None,
     wheel: PointWheel | None = None,
 ) -> PointCoupling:
     """Join a law to all wheel positions of a passage."""
     track, x, shape = passage.track, passage.positions.ravel(), passage.positions.shape
     dofs, weights = track.rail_rows(x)
+    felt, along = passage.felt(contact_filter), np.zeros((*shape, 0))
+    if isinstance(law, PatchLaw):
+        felt, along = passage.seen(law)
     # a spring gives back no more than it stands for
     top = np.maximum(track.top_load_compliance(x), -law.softness)
     gaps = PointGaps(
@@ -120,7 +132,8 @@ def point_coupling(
             *_wheel_rows(passage, wheel), dofs.reshape(*shape, -1), weights.reshape(*shape, -1)
         ),
         (track.local_compliance(x) + top).reshape(shape),
-        passage.felt(contact_filter),
+        felt,
+        along,
     )
     return PointCoupling(law, gaps, passage.static_loads, bilateral=track.direction == "Y")
 
@@ -136,14 +149,23 @@ def _wheel_rows(
     return np.hstack([dofs, np.arange(n - m, n)[None]]), np.r_[1.0, wheel.shapes][None]
 
 
-def _law_problems(law: ContactLaw, direction: Direction, integrator: Integrator) -> list[str]:
+def _law_problems(
+    law: ContactLaw | PatchLaw,
+    contact_filter: ContactFilter | None,
+    direction: Direction,
+    integrator: Integrator,
+) -> list[str]:
     problems = []
-    if not isinstance(law, ContactLaw):
+    name = type(law).__name__
+    if not isinstance(law, ContactLaw | PatchLaw):
         problems.append(
-            f"law = {law!r}: must be a LinearSpring, RigidContact, HertzSpring or MovingForce"
+            f"law = {law!r}: must be a LinearSpring, RigidContact, HertzSpring, PressSpring, "
+            "MovingForce, WinklerBedding or FollowingPatch"
         )
-    if direction == "Y" and isinstance(law, HertzSpring):
-        problems.append("law = HertzSpring with direction = 'Y': Hertz's law is vertical only")
+    if direction == "Y" and isinstance(law, HertzSpring | PressSpring | PatchLaw):
+        problems.append(f"law = {name} with direction = 'Y': this law is vertical only")
+    if contact_filter is not None and isinstance(law, PatchLaw):
+        problems.append(f"contact_filter with law = {name}: this law is a filter itself")
     if isinstance(law, RigidContact) and integrator.constraint_radius > 1.0 - 1e-6:
         problems.append(
             f"integrator = {integrator.name!r} with law = RigidContact: without numerical damping"
@@ -151,25 +173,3 @@ def _law_problems(law: ContactLaw, direction: Direction, integrator: Integrator)
             " radius below 1"
         )
     return problems
-
-
-def _describe_rail(track: DiscreteTrack) -> dict[str, object]:
-    if not isinstance(track, BeamTrack):
-        return {"rail": "solid"}
-    return {
-        "rail": track.theory,
-        "elements_per_bay": track.elements_per_bay,
-        "local_compliance": int(track.element_compliance),
-    }
-
-
-def _describe_law(law: ContactLaw) -> dict[str, object]:
-    match law:
-        case LinearSpring(stiffness=stiffness):
-            return {"law": "linear", "k_r": stiffness}
-        case HertzSpring(stiffness=stiffness):
-            return {"law": "hertz", "k_H": stiffness}
-        case RigidContact():
-            return {"law": "rigid"}
-        case _:
-            return {"law": "moving force"}

@@ -7,7 +7,14 @@ from pathlib import Path
 from typing import Any
 
 from contactstudy.contact.filters import ContactFilter, PatchMean, Trajectory
-from contactstudy.contact.laws import ContactLaw, HertzSpring, LinearSpring, RigidContact
+from contactstudy.contact.laws import (
+    ContactLaw,
+    HertzSpring,
+    LinearSpring,
+    PressSpring,
+    RigidContact,
+)
+from contactstudy.contact.patch_laws import FollowingPatch, PatchLaw, WinklerBedding
 from contactstudy.contact.point_wheel import PointWheel
 from contactstudy.contact.press_table import PressTable
 from contactstudy.files import file_digest
@@ -100,11 +107,14 @@ def hertz(study: Study) -> HertzContact:
     return hertz_contact(load, modulus, *geometry(study).relative_radii())
 
 
-def contact_law(study: Study, run: str) -> ContactLaw:
+def contact_law(study: Study, run: str) -> ContactLaw | PatchLaw:
     """The contact law of a point run."""
-    table = _point(study, run)
-    if table.law == "hertz":
-        return HertzSpring(_hertz_constant(study, run))
+    table, load = _point(study, run), study.vehicle.static_load
+    if table.contact_filter == "bedding":
+        approach = HertzSpring(_hertz_constant(study, run)).approach_at(load)
+        return WinklerBedding(hertz(study).semi_axis_x, approach, load)
+    if table.law != "linear":
+        return _nonlinear(study, run)
     if isinstance(table.k_r, float):
         return LinearSpring(table.k_r)
     if table.k_r == "rigid":
@@ -116,6 +126,23 @@ def contact_law(study: Study, run: str) -> ContactLaw:
     closed = hertz(study)
     secant = name.endswith("secant")
     return LinearSpring(factor * (closed.secant_stiffness if secant else closed.tangent_stiffness))
+
+
+def _nonlinear(study: Study, run: str) -> HertzSpring | PressSpring | FollowingPatch:
+    """Hertz's law or the press, of the mean over the patch at the force of the moment if wanted."""
+    table = _point(study, run)
+    law: HertzSpring | PressSpring
+    if table.law == "hertz":
+        law = HertzSpring(_hertz_constant(study, run))
+    else:
+        press = press_table(study, run)
+        law = PressSpring(press.approach, press.force)
+    if table.contact_filter != "patch" or table.patch_filter == "fixed":
+        return law
+    if table.weight_of_press:
+        return FollowingPatch.of_press(law, press_table(study, run))
+    closed = hertz(study)
+    return FollowingPatch.on_ellipse(law, closed.semi_axis_x, law.approach_at(closed.load))
 
 
 def _hertz_constant(study: Study, run: str) -> float:

@@ -106,7 +106,7 @@ def _contact(study: Study) -> str:
         hertz = contact.hertz(study)
     except InputError as error:
         points = [run for run in study.runs.values() if isinstance(run, PointRun)]
-        if any(run.law == "hertz" or "hertz" in str(run.k_r) for run in points):
+        if any(run.law_of_hertz for run in points):
             raise
         return f"{text}{error}"
     return (

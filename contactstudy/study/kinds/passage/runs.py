@@ -5,8 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar, Literal
 
-from contactstudy.dynamics import integrators
-from contactstudy.solvers.journey import Journey
+from contactstudy.study.kinds.passage.run import Run
 from contactstudy.study.kinds.passage.solid import WheelModel
 from contactstudy.track.beam import BeamTrack
 from contactstudy.track.model import Direction
@@ -14,7 +13,6 @@ from contactstudy.validation import (
     Above,
     Multiples,
     Naming,
-    Parameters,
     Same,
     Unit,
     Variants,
@@ -22,47 +20,8 @@ from contactstudy.validation import (
     complaint,
     multiple,
 )
-from contactstudy.validation import quantities as q
 
 _BEAM = When("rail", "euler", "timoshenko")
-
-
-@dataclass(frozen=True)
-class Run(Parameters):
-    """Keys of every run."""
-
-    time_step: Annotated[
-        float | None, Same(Journey, "time_step"), "time step; that of the journey if left out"
-    ] = None
-    irregularity: Annotated[Literal["study", "smooth"], "the study's, or none"] = "study"
-    integrator: Annotated[
-        Literal["average_acceleration", "generalised_alpha"] | None,
-        "time stepper; the one that suits the run if left out",
-    ] = None
-    rho_inf: Annotated[
-        q.Fraction, When("stepper", "generalised_alpha", key="integrator"),
-        "spectral radius at infinite frequency",
-    ] = 0.8  # fmt: skip
-
-    @property
-    def needs_solid(self) -> bool:
-        """Whether the run is on the meshed rail."""
-        return True
-
-    @property
-    def stepper(self) -> str:
-        """Name of the integrator: the one given, or the one that suits the run."""
-        return self.integrator or "average_acceleration"
-
-    def method(self) -> integrators.Integrator:
-        """The time stepper."""
-        if self.stepper == "generalised_alpha":
-            return integrators.generalised_alpha(self.rho_inf)
-        return integrators.average_acceleration()
-
-    def resolved(self) -> dict[str, Any]:
-        """Key -> SI value of all keys that apply, the integrator chosen."""
-        return super().resolved() | {"integrator": self.stepper}
 
 
 @dataclass(frozen=True)
@@ -139,6 +98,15 @@ class PointRun(Run):
         return self.law == "press" or self.hertz_constant == "press"
 
     @property
+    def law_of_hertz(self) -> bool:
+        """Whether the run needs Hertz's closed form, which conformal profiles do not have."""
+        if self.contact_filter in ("patch", "bedding") and not self.weight_of_press:
+            return True
+        if self.law == "linear":
+            return isinstance(self.k_r, str) and multiple(self.k_r)[1].startswith("hertz")
+        return self.law == "hertz" and self.hertz_constant == "closed_form"
+
+    @property
     def weight_of_press(self) -> bool:
         """Whether the patch filter's weights come from the press."""
         if self.contact_filter != "patch":
@@ -183,12 +151,7 @@ class PointRun(Run):
         if self.contact_filter == "bedding" and self.law != "hertz":
             allowed = 'must be "hertz" with contact_filter = "bedding", which spreads Hertz\'s law'
             problems.append(complaint(key("law"), self.law, allowed))
-        for name, value in (("law", "press"), ("contact_filter", "bedding")):
-            if getattr(self, name) == value:
-                problems.append(complaint(key(name), value, "is not available yet"))
         following = self.contact_filter == "patch" and self.patch_filter == "following"
-        if following:
-            problems.append(complaint(key("patch_filter"), "following", "is not available yet"))
         if following and self.law == "linear":
             allowed = 'must be "hertz" or "press" with patch_filter = "following"'
             problems.append(complaint(key("law"), self.law, allowed))

@@ -1,5 +1,6 @@
 """Tables of the report as plain data: columns and rows of texts."""
 
+import re
 from collections.abc import Mapping
 from typing import Any
 
@@ -30,16 +31,27 @@ def describe(results: StudyResults, name: str) -> tuple[str, str]:
         rail += f", {run['elements_per_bay']} a bay"
     if run.get("local_compliance"):
         rail += ", local compliance"
-    attrs = results.runs[name].attrs
+    seen = {"trajectory": ", trajectory", "patch": ", mean over the patch"}
+    contact = _law(run, results.runs[name].attrs) + seen.get(str(run.get("contact_filter")), "")
+    if run.get("patch_filter") == "following":
+        contact += " at the force of the moment"
+    return rail, contact + (", modal wheel" if run.get("wheel") == "modal" else "")
+
+
+def _law(run: Mapping[str, Any], attrs: Mapping[str, Any]) -> str:
+    if run.get("contact_filter") == "bedding":
+        return "point, Winkler bedding"
+    if run.get("law") == "press":
+        return "point, press"
     if run.get("law") == "hertz":
-        return rail, "point, Hertz" + _value(attrs.get("k_H"), "N/m^(3/2)", f"{K_H} = ")
+        return "point, Hertz" + _value(attrs.get("k_H"), "N/m^(3/2)", f"{K_H} = ")
     k_r = run.get("k_r")
     if isinstance(k_r, str):
         # Rigid contact has no stiffness; the tangent of the press or of Hertz has a value.
         value = None if k_r == "rigid" else attrs.get("k_r")
-        words = {"hertz_tangent": "tangent of Hertz"}.get(k_r, k_r)
-        return rail, f"point, {K_R} {words}" + _value(value, "N/m")
-    return rail, "point" + _value(k_r, "N/m", f"{K_R} = ")
+        words = re.sub(r"hertz_(\w+)", r"\1 of Hertz", k_r)
+        return f"point, {K_R} {words}" + _value(value, "N/m")
+    return "point" + _value(k_r, "N/m", f"{K_R} = ")
 
 
 def _value(value: Any, unit: str, before: str = "") -> str:
