@@ -21,7 +21,7 @@ from contactstudy.exceptions import ContactStudyError, InputError
 from contactstudy.process import ONE_THREAD
 
 if TYPE_CHECKING:
-    from contactstudy.study.kind import Study
+    from contactstudy.study.study import Study
 
 app = App(
     name="contactstudy",
@@ -235,7 +235,7 @@ def cache(
     """Say where condensed bodies, and runs from Python, are kept, how many, and how large."""
     from contactstudy.solids.cache import cache_directory, cache_store
     from contactstudy.store import Store
-    from contactstudy.study.plan import RUNS
+    from contactstudy.study.results import RUNS
 
     runs = Store(cache_directory() / RUNS)
     for store in (cache_store(), runs) if runs.folder.is_dir() else (cache_store(),):

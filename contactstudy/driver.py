@@ -14,10 +14,16 @@ from contactstudy.store import Store
 from contactstudy.study.axes.collect import collect_swept
 from contactstudy.study.axes.dataset import write_csv
 from contactstudy.study.compute import Found, compute
-from contactstudy.study.kind import Study, find_kind
+from contactstudy.study.kind import find_kind
 from contactstudy.study.loading import load_companions
-from contactstudy.study.plan import RUNS, Plan, collect, plan_study
-from contactstudy.study.results import StudyResults, read_results, write_results
+from contactstudy.study.plan import Plan, collect, plan_study
+from contactstudy.study.results import (
+    RUNS,
+    StudyResults,
+    read_results,
+    write_results,
+)
+from contactstudy.study.study import Study
 
 FINISHED = "finished"
 

@@ -12,9 +12,9 @@ from contactstudy.driver import compute_study, run_study
 from contactstudy.exceptions import InputError
 from contactstudy.reporter import Quiet
 from contactstudy.solids.cache import cache_directory
-from contactstudy.study.kind import Study
 from contactstudy.study.loading import load_study
 from contactstudy.study.results import StudyResults
+from contactstudy.study.study import Study
 from contactstudy.study.terminal import TerminalReporter, print_check
 
 if TYPE_CHECKING:

@@ -6,7 +6,7 @@ from contactstudy.figures import axes
 from contactstudy.plot.drawing import Drawing
 from contactstudy.plot.style import figure_style, save
 from contactstudy.study.kind import find_kind
-from contactstudy.study.results import StudyResults
+from contactstudy.study.results import FIGURES, StudyResults
 
 
 def all_drawings(results: StudyResults) -> list[Drawing]:
@@ -20,7 +20,7 @@ def write_figures(results: StudyResults, out_dir: Path) -> list[Path]:
     What the study does not carry is left out. Figures of a companion study go into
     out_dir/<companion>/figures. Returned are the files written.
     """
-    folder = Path(out_dir) / "figures"
+    folder = Path(out_dir) / FIGURES
     written: list[Path] = []
     with figure_style():
         for made in all_drawings(results):

@@ -16,7 +16,7 @@ from contactstudy.figures.signals import position, values
 from contactstudy.files import writing
 from contactstudy.plot.style import BLACK, VERMILION, figure_style, map_axes, new_figure
 from contactstudy.plot.text import exact, label
-from contactstudy.study.results import StudyResults
+from contactstudy.study.results import FIGURES, StudyResults
 
 _DPI = 100
 _WIDTH, _HEIGHT = 6.0, 4.2  # inch
@@ -53,7 +53,7 @@ def write_animations(results: StudyResults, out_dir: Path) -> list[Path]:
     written = []
     for name, run in found.items():
         suffix = f"_{name}" if len(found) > 1 else ""
-        target = Path(out_dir) / "figures" / f"patch{suffix}.gif"
+        target = Path(out_dir) / FIGURES / f"patch{suffix}.gif"
         with writing(target) as path, figure_style():
             _animate(name, run, path)
         written.append(target)

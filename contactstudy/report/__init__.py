@@ -8,11 +8,9 @@ from contactstudy.figures import all_drawings, write_figures
 from contactstudy.files import writing
 from contactstudy.report.content import content
 from contactstudy.report.typesetting import typeset
-from contactstudy.study.results import StudyResults
+from contactstudy.study.results import FIGURES, REPORT_FILE, StudyResults
 
 __all__ = ["write_report"]
-
-REPORT_FILE = "report.pdf"
 
 
 def write_report(results: StudyResults, out_dir: Path, timings: bool = False) -> Path:
@@ -27,7 +25,7 @@ def write_report(results: StudyResults, out_dir: Path, timings: bool = False) ->
     data = content(results, timings)
     with tempfile.TemporaryDirectory() as folder, writing(target) as path:
         root = Path(folder)
-        _gather(results, out_dir, root / "figures")
+        _gather(results, out_dir, root / FIGURES)
         chapters = [data[key] for key in ("model", "limits") if data[key]]
         path.write_bytes(typeset(root, ("template.typ", *chapters, "references.yml"), data))
     return target
@@ -36,10 +34,10 @@ def write_report(results: StudyResults, out_dir: Path, timings: bool = False) ->
 def _gather(results: StudyResults, out_dir: Path, folder: Path) -> None:
     """Copy the PDF figures of a study and its companions, having drawn them if one is missing."""
     names = [made.name for made in all_drawings(results)]
-    if not all((out_dir / "figures" / f"{name}.pdf").is_file() for name in names):
+    if not all((out_dir / FIGURES / f"{name}.pdf").is_file() for name in names):
         write_figures(results, out_dir)
     folder.mkdir(parents=True, exist_ok=True)
     for name in names:
-        shutil.copyfile(out_dir / "figures" / f"{name}.pdf", folder / f"{name}.pdf")
+        shutil.copyfile(out_dir / FIGURES / f"{name}.pdf", folder / f"{name}.pdf")
     for companion in results.companions:
         _gather(companion, out_dir / companion.name, folder / companion.name)

@@ -16,8 +16,9 @@ from contactstudy.process import peak_memory_mb
 from contactstudy.reporter import Bars, Reporter
 from contactstudy.store import Kept
 from contactstudy.study.axes.measure import measure
-from contactstudy.study.kind import Study, imported
+from contactstudy.study.kind import imported
 from contactstudy.study.plan import FAILED, Piece, Plan
+from contactstudy.study.study import Study
 
 BATCH = 64
 """Most pieces of work that are computed together."""

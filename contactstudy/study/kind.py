@@ -11,10 +11,11 @@ A study file is of the kind whose name is one of its tables, else a passage.
 from __future__ import annotations
 
 import importlib
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, Protocol
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from contactstudy.exceptions import InputError
 from contactstudy.executor import Task
@@ -39,40 +40,6 @@ Part = dict[str, Any]
 """``title`` and ``blocks`` of a section of the report."""
 Cost = Mapping[str, Any]
 """``seconds`` {``setup``, ``stepping``} and ``peak_memory_mb`` of a piece of work."""
-
-
-class Study(Protocol):
-    """A study file that has been read and found possible; frozen and picklable."""
-
-    @property
-    def kind(self) -> str:
-        """Name of its kind."""
-
-    @property
-    def name(self) -> str:
-        """Stem of the file."""
-
-    @property
-    def title(self) -> str:
-        """One line."""
-
-    @property
-    def description(self) -> str:
-        """Paragraphs."""
-
-    @property
-    def companions(self) -> tuple[str, ...]:
-        """Studies whose results stand in the same report."""
-
-    @property
-    def reference(self) -> str | None:
-        """Run that the others are compared with."""
-
-    def config(self) -> dict[str, Any]:
-        """All values as nested plain data in SI, without keys that do not apply."""
-
-    def units(self) -> dict[str, str]:
-        """Dotted key of `config` -> SI unit, for keys that have one."""
 
 
 @dataclass(frozen=True)
@@ -147,7 +114,7 @@ class Report:
     limits: str = ""
 
 
-class Kind:
+class Kind(ABC):
     """What one study computes; a kind overrides the methods that have no default."""
 
     name: str
@@ -170,6 +137,8 @@ class Kind:
     #: What is shown of what is measured, in figures and tables; all that is measured if empty.
     #: Of refinements it has order and limit.
     shown: ClassVar[Sequence[Quantity]] = ()
+    #: Files and folders that it writes beside those of every study.
+    files: ClassVar[Sequence[str]] = ()
     #: How what it returns is kept: a dataset, or plain data (small ones are quicker so) for None.
     form: ClassVar[Form | None] = DATASET
     #: Table of the study file -> its model: for reading, ``--set`` and the reference of keys.
@@ -179,9 +148,9 @@ class Kind:
     #: Table -> title of its parameters in the report, which shows no others.
     titles: ClassVar[Mapping[str, str]] = {}
 
+    @abstractmethod
     def load(self, path: Path, data: dict[str, Any], overrides: Overrides, main: Any = None) -> Any:
         """Check the content of a study file; `main` is the study that it accompanies, if any."""
-        raise NotImplementedError
 
     def read_inputs(self, study: Any) -> Inputs:
         """Read what the study names, and refuse what cannot be used."""
@@ -191,15 +160,17 @@ class Kind:
         """What it will need, or why it cannot be run; texts and rich tables to print."""
         return ()
 
+    @abstractmethod
     def work(self, study: Any, inputs: Inputs) -> Sequence[Work]:
         """The pieces of work."""
-        raise NotImplementedError
 
     def seconds(self, study: Any, name: str) -> float:
         """Time that a piece of work will take, about; 0 where nobody knows."""
         return 0.0
 
-    def admit(self, study: Any, names: Sequence[str], reporter: Reporter) -> None:
+    def admit(  # noqa: B027
+        self, study: Any, names: Sequence[str], reporter: Reporter
+    ) -> None:
         """Refuse pieces of work that are known to be impossible, before any is computed."""
 
     def before(self, study: Any, name: str) -> Sequence[Task]:
@@ -224,9 +195,9 @@ class Kind:
         """Write further files; equal results give equal bytes."""
         return ()
 
+    @abstractmethod
     def report(self, results: StudyResults, timings: bool = False) -> Report:
         """Texts and tables; with `timings` also what depends on the machine."""
-        raise NotImplementedError
 
     def summary(self, results: StudyResults) -> Sequence[Any]:
         """What a command prints in the end: texts and rich tables."""
@@ -245,7 +216,7 @@ class _Later:
         self._place = place
 
     def __get__(self, kind: Kind | None, owner: type) -> Any:
-        return imported(self._place)
+        return self if kind is None else imported(self._place)
 
 
 def later(place: str) -> Any:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Mapping
 from copy import deepcopy
 from dataclasses import replace
 from pathlib import Path
@@ -13,15 +12,10 @@ from contactstudy.exceptions import InputError
 from contactstudy.resources import resource
 from contactstudy.study.axes.swept import Source, Swept
 from contactstudy.study.axes.table import TABLES, apply_quick, read_designs
-from contactstudy.study.kind import Kind, kind_of_file
+from contactstudy.study.kind import Kind, find_kind, kind_of_file
 from contactstudy.study.overrides import Overrides, read_texts
+from contactstudy.study.results import OUTPUTS
 from contactstudy.validation import complaint, did_you_mean, raise_if
-
-# of a study's results, beside which those of its companions lie
-_TAKEN = (
-    "runs", "figures", "fields", "result.nc", "metrics.json", "report.pdf", "patches.csv",
-    "sweep.csv",
-)  # fmt: skip
 
 
 def shipped_studies() -> dict[str, Path]:
@@ -135,7 +129,7 @@ def _with_axes(
     raise_if(problems + wrong)
     if not designs:
         return study
-    made = Swept(study, tuple(designs), source, keep)
+    made = Swept.of(study, designs, source, keep)
     _ = made.variants  # impossible ones are refused
     return made
 
@@ -156,12 +150,12 @@ def load_companions(study: Any, quick: bool = False) -> list[Any]:
         Listing every problem of every companion.
     """
     found, problems = [], []
-    taken = dict.fromkeys(_TAKEN, "a file or folder of every study")
+    files = (*OUTPUTS, *find_kind(study.kind).files)
+    taken = dict.fromkeys(files, "a file or folder of the results")
     taken[study.name] = "the study that it accompanies"
     for name in study.companions:
         try:
-            made = load_study(name, main=study, quick=quick)
-            made = made.alone() if isinstance(made, Swept) else replace(made, companions=())
+            made = replace(load_study(name, main=study, quick=quick), companions=())
         except InputError as error:
             problems += [f"companion {name}: {problem}" for problem in error.problems]
             continue
@@ -174,14 +168,3 @@ def load_companions(study: Any, quick: bool = False) -> list[Any]:
         found.append(made)
     raise_if(problems)
     return found
-
-
-def title_and_description(name: str, data: Mapping[str, Any]) -> tuple[dict[str, str], list[str]]:
-    """Texts that a study file of any kind may have, and what is wrong with them."""
-    texts = {"title": data.get("title", name), "description": data.get("description", "")}
-    problems = [
-        complaint(key, value, "must be text")
-        for key, value in texts.items()
-        if not isinstance(value, str)
-    ]
-    return texts, problems

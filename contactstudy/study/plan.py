@@ -11,11 +11,10 @@ from contactstudy.exceptions import InputError
 from contactstudy.provenance import provenance, versions
 from contactstudy.store import Kept, Store, store_key
 from contactstudy.study.axes.swept import Swept, raise_grouped, variants
-from contactstudy.study.kind import Inputs, Kind, Study, Work, find_kind
-from contactstudy.study.results import StudyResults
+from contactstudy.study.kind import Inputs, Kind, Work, find_kind
+from contactstudy.study.results import RUNS, StudyResults
+from contactstudy.study.study import Study
 
-RUNS = "runs"
-"""Folder of the output in which finished pieces of work are kept."""
 FAILED = "failed"
 """Entry of a piece of work that failed."""
 

@@ -31,6 +31,12 @@ if TYPE_CHECKING:
 
 RESULT_FILE = "result.nc"
 METRICS_FILE = "metrics.json"
+REPORT_FILE = "report.pdf"
+SWEEP_FILE = "sweep.csv"
+FIGURES = "figures"
+RUNS = "runs"
+"""Folder in which finished pieces of work are kept."""
+OUTPUTS = (RESULT_FILE, METRICS_FILE, REPORT_FILE, SWEEP_FILE, FIGURES, RUNS)
 
 
 @dataclass(frozen=True)

@@ -25,9 +25,10 @@ from rich.text import Text
 from contactstudy.reporter import Reporter
 from contactstudy.study.axes.swept import Swept
 from contactstudy.study.axes.terminal import check_swept, summary
-from contactstudy.study.kind import Study, find_kind
+from contactstudy.study.kind import find_kind
 from contactstudy.study.loading import base_of, load_companions
 from contactstudy.study.results import StudyResults
+from contactstudy.study.study import Study
 
 _LONG = 12  # values of a list
 

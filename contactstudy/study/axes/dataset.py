@@ -13,11 +13,11 @@ from contactstudy.arrays import Array
 from contactstudy.files import writing
 from contactstudy.study.axes.design import CASE, GRID, Design
 from contactstudy.study.axes.measured import Measured
+from contactstudy.study.results import SWEEP_FILE
 
 if TYPE_CHECKING:
     import xarray as xr
 
-CSV_FILE = "sweep.csv"
 FAILURE = "failure"
 """Variable with the reason why a variant could not be computed, "" for a good one."""
 
@@ -129,12 +129,12 @@ def _fill(into: Array, values: Any, labels: list[list[str]]) -> None:
 def write_csv(groups: Mapping[str, xr.Dataset], folder: Path) -> list[Path]:
     """Write datasets of designs: a line a variant, a column a key and each thing measured.
 
-    The only design, and that of ``[sweep]``, is `CSV_FILE`; others have their names.
+    The only design, and that of ``[sweep]``, is `SWEEP_FILE`; others have their names.
     """
     written = []
     for name, data in groups.items():
         alone = len(groups) == 1
-        written.append(folder / (CSV_FILE if alone else f"{name}.csv"))
+        written.append(folder / (SWEEP_FILE if alone else f"{name}.csv"))
         columns = dict(_columns(data))
         with (
             writing(written[-1]) as temporary,

@@ -11,7 +11,8 @@ from contactstudy.executor import Outcome, Progress, Task, run_tasks
 from contactstudy.reporter import Bars, Reporter
 from contactstudy.store import Kept, Store
 from contactstudy.study.axes.swept import Swept, finest_points
-from contactstudy.study.kind import Study, imported
+from contactstudy.study.kind import imported
+from contactstudy.study.study import Study
 
 if TYPE_CHECKING:
     from contactstudy.study.plan import Piece, Plan, Planned

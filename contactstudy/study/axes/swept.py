@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, fields
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -12,7 +12,8 @@ from typing import Any
 from contactstudy.exceptions import InputError
 from contactstudy.store import digest
 from contactstudy.study.axes.design import Design
-from contactstudy.study.kind import Kind, Study
+from contactstudy.study.kind import Kind
+from contactstudy.study.study import Study
 
 _SHOWN = 3  # variants that a complaint names
 
@@ -45,8 +46,8 @@ class Variant:
     title: str = ""
 
 
-@dataclass(frozen=True)
-class Swept:
+@dataclass(frozen=True, kw_only=True)
+class Swept(Study):
     """A study and its axes; answers as the study does, and has variants."""
 
     study: Any
@@ -54,34 +55,18 @@ class Swept:
     source: Source
     keep: tuple[str, ...] = ()
 
+    @classmethod
+    def of(
+        cls, study: Study, designs: Sequence[Design], source: Source, keep: tuple[str, ...] = ()
+    ) -> Swept:
+        """A study with axes."""
+        own = {f.name: getattr(study, f.name) for f in fields(Study)}
+        return cls(**own, study=study, designs=tuple(designs), source=source, keep=keep)
+
     @property
-    def kind(self) -> str:  # noqa: D102
+    def kind(self) -> str:  # type: ignore[override]
+        """That of the study."""
         return str(self.study.kind)
-
-    @property
-    def name(self) -> str:  # noqa: D102
-        return str(self.study.name)
-
-    @property
-    def title(self) -> str:  # noqa: D102
-        return str(self.study.title)
-
-    @property
-    def description(self) -> str:  # noqa: D102
-        return str(self.study.description)
-
-    @property
-    def companions(self) -> tuple[str, ...]:  # noqa: D102
-        return tuple(self.study.companions)
-
-    @property
-    def reference(self) -> str | None:  # noqa: D102
-        found: str | None = self.study.reference
-        return found
-
-    def alone(self) -> Swept:
-        """Without companions."""
-        return replace(self, study=replace(self.study, companions=()))
 
     def config(self) -> dict[str, Any]:
         """Values of the study, and the coordinates of each axis."""

@@ -21,6 +21,7 @@ from contactstudy.report.blocks import text
 from contactstudy.study.axes.measured import measured
 from contactstudy.study.kind import Kind, Report, Work
 from contactstudy.study.overrides import override
+from contactstudy.study.study import Study
 from contactstudy.validation import Above, AtLeast, Parameters, Unit, raise_if, read
 
 
@@ -42,14 +43,9 @@ class Law(Parameters):
 
 
 @dataclasses.dataclass(frozen=True)
-class Powers:
+class Powers(Study):
     kind: typing.ClassVar[str] = "law"
-    name: str
-    law: Law
-    title: str = "Powers"
-    description: str = ""
-    companions: tuple = ()
-    reference: str | None = None
+    law: Law = Law()
 
     def config(self):
         return {"law": self.law.resolved()}
@@ -84,7 +80,7 @@ class LawKind(Kind):
         problems = override(data, overrides, self.tables)
         law, wrong = read(Law, data.get("law", {}), "law")
         raise_if(problems + wrong)
-        return Powers(path.stem, law)
+        return Powers(path.stem, "Powers", law=law)
 
     def work(self, study, inputs):
         own = study.config()["law"]

@@ -27,17 +27,13 @@ from contactstudy.plot.draw import draw
 from contactstudy.plot.drawing import Drawing
 from contactstudy.report.blocks import figure, table
 from contactstudy.study.kind import Kind, Report, Work
+from contactstudy.study.study import Study
 
 
 @dataclasses.dataclass(frozen=True)
-class Swings:
+class Swings(Study):
     kind: typing.ClassVar[str] = "pendulum"
-    name: str
-    lengths: tuple
-    title: str = "Pendulums"
-    description: str = "A mass on a string."
-    companions: tuple = ()
-    reference: str | None = None
+    lengths: tuple = ()
 
     def config(self):
         return {"pendulum": {"lengths": list(self.lengths)}}
@@ -63,7 +59,7 @@ class Pendulum(Kind):
         lengths = data["pendulum"]["lengths"]
         if min(lengths) <= 0:
             raise InputError(f"pendulum.lengths = {lengths}: must be above 0 m")
-        return Swings(path.stem, tuple(lengths))
+        return Swings(path.stem, "Pendulums", "A mass on a string.", lengths=tuple(lengths))
 
     def check(self, study, companions, reporter):
         return [f"{len(study.lengths)} pendulums"]
@@ -128,6 +124,14 @@ def test_a_kind_in_a_test_goes_all_the_way(pendulum, tmp_path, capsys, monkeypat
     assert before == {p: p.read_bytes() for p in out.rglob("*") if p.is_file()}
 
 
+def test_a_kind_must_say_what_it_is():
+    class Nothing(kind.Kind):
+        name = "nothing"
+
+    with pytest.raises(TypeError, match=r"load.*report.*work"):
+        Nothing()
+
+
 def test_what_a_kind_refuses_and_what_it_has_not(pendulum, tmp_path, capsys):
     arguments = ["export", str(pendulum), "--out", str(tmp_path / "press.inp")]
     assert cli.main(arguments) == 2
@@ -143,7 +147,7 @@ def test_what_a_kind_refuses_and_what_it_has_not(pendulum, tmp_path, capsys):
         (["a/one.toml", "b/one.toml"], r"b/one.toml: is called one like the companion .*a/one"),
         (["a/one.toml", "a/one.toml"], r"is called one like the companion"),
         (["a/main.toml"], r"is called main like the study that it accompanies"),
-        (["a/figures.toml"], r"is called figures like a file or folder of every study"),
+        (["a/figures.toml"], r"is called figures like a file or folder of the results"),
     ],
 )
 def test_companions_that_would_overwrite_each_other_are_refused(

@@ -157,7 +157,7 @@ def test_a_path_in_a_file_is_relative_to_the_file(tmp_path):
         ({"vehicle": {"type": "bare_wheel", "car_mass": 1}}, ['type = "wheel_column"']),
         ({"solid": {"mesh_size": "20 mm"}}, ["at most 0.008 m"]),
         ({"title": 3}, ["title = 3: must be text"]),
-        ({"companions": "smooth_rail"}, ["list of names"]),
+        ({"companions": "smooth_rail"}, ["must be a list"]),
         (
             {"solid": {"cell_length": 0.07}, "runs": {"s": {"solver": "surface"}}},
             ["must divide 0.6 m into whole cells"],

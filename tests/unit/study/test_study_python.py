@@ -21,7 +21,7 @@ RUNS = {"surface": SurfaceRun()}
 
 
 def built(**parts):
-    return Study(name="s", title="S", **parts)
+    return Study(**{"name": "s", "title": "S"} | parts)
 
 
 @pytest.mark.parametrize(
@@ -114,6 +114,12 @@ def test_runs_are_checked():
         ({"runs": {3: PointRun()}}, r"runs\.3: a run's name is letters"),
         ({"runs": {"p": PointRun()}, "reference": []}, r"compare\.reference = \[\]: must be a run"),
         ({"runs": None, "track": 3}, "track: is a int"),
+        ({"name": 3}, "name = 3: must be text"),
+        ({"title": 3}, "title = 3: must be text"),
+        ({"description": ["a"]}, r"description = \['a'\]: must be text"),
+        ({"companions": "smooth_rail"}, 'companions = "smooth_rail": must be a list'),
+        ({"companions": [3]}, r"companions\.0 = 3: must be text"),
+        ({"smooth": "yes"}, r'compare\.smooth = "yes": must be true or false'),
     ],
 )
 def test_parts_of_a_wrong_type_are_refused(parts, said):
@@ -122,8 +128,11 @@ def test_parts_of_a_wrong_type_are_refused(parts, said):
 
 
 def test_positions_have_defaults():
-    study = PositionsStudy("s", "S")
-    assert study.description == "" and study.table == Positions()
+    study = PositionsStudy("s")
+    assert (study.title, study.description, study.table) == ("s", "", Positions())
+    for wrong in ({"title": 3}, {"description": None}, {"companions": None}):
+        with pytest.raises(InputError, match=rf"{next(iter(wrong))}( = 3)?: must be"):
+            PositionsStudy("s", **wrong)
 
 
 def test_texts_have_no_unit():

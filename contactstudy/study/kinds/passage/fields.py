@@ -25,13 +25,13 @@ from contactstudy.halfspace.pressure_field import SurfacePressure
 from contactstudy.halfspace.subsurface import SHALLOWEST, half_space_stress
 from contactstudy.solids.stress import maximum_shear, von_mises
 from contactstudy.solvers.patch_fields import instant_pressure
+from contactstudy.study.kinds.passage.kind import FIELDS
 from contactstudy.study.results import StudyResults
 
 if TYPE_CHECKING:
     import meshio
     import xarray as xr
 
-FIELDS = "fields"
 _PARTS = ("patch", "below")
 # lines of the body below in patch radii: how far beside the patch, how deep, how far apart
 _BESIDE, _DEEP, _STEP = 0.75, 3.0, 0.125

@@ -12,6 +12,8 @@ _HERE = "contactstudy.study.kinds.passage"
 _FORCE, _NAME = "contact_force", "contact force"
 _PART = {"signal": (_FORCE,), "part": ("irregularity", "dynamic")}
 _TOTAL = {"signal": (_FORCE,), "part": ("total",)}
+FIELDS = "fields"
+"""Folder of the fields for ParaView."""
 
 
 class PassageKind(Kind):
@@ -28,6 +30,7 @@ class PassageKind(Kind):
         Quantity("largest", f"Largest {_NAME} (kN)", {"signal": (_FORCE,)}, 1e-3),
         Quantity("from_finest", f"Difference of the {_NAME} from the finest (%)", _PART, 100.0),
     )
+    files = (FIELDS,)
     about = "Wheels run over a track, by several models that are compared."
     tables = SECTIONS
     inner_tables: ClassVar = {"runs": SOLVERS}

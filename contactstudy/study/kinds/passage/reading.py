@@ -9,11 +9,11 @@ from typing import Any
 from contactstudy.study.kinds.passage.checks import combined
 from contactstudy.study.kinds.passage.runs import SOLVERS
 from contactstudy.study.kinds.passage.schema import SECTIONS, Study, wrong_reference, wrong_runs
-from contactstudy.study.loading import title_and_description
 from contactstudy.study.overrides import Overrides, override
+from contactstudy.study.study import TEXTS, read_texts
 from contactstudy.validation import complaint, did_you_mean, raise_if, read, resolve_paths, unknown
 
-_TOP_LEVEL = ("title", "description", "companions", *SECTIONS, "runs", "compare")
+_TOP_LEVEL = (*TEXTS, *SECTIONS, "runs", "compare")
 _COMPARE = ("reference", "smooth")
 _SHARED = ("track", "vehicle", "journey", "solid", "wheelset", "scan")
 
@@ -60,7 +60,7 @@ def parse_study(
         if "solid" not in data or not solid.given("cell_length"):
             tables["solid"] = solid.fitting(tables["track"])
     runs, wrong = _runs(data.get("runs", {}))
-    texts, wrong_texts = _texts(name, data)
+    texts, wrong_texts = read_texts(data)
     compare, wrong_compare = _compare(data, list(data["runs"]) if runs else [])
     found += wrong + combined(tables, runs) + wrong_texts + wrong_compare
     raise_if(found)
@@ -83,16 +83,6 @@ def _runs(data: Any) -> tuple[dict[str, Any], list[str]]:
         if run is not None:
             runs[name] = run
     return runs, problems
-
-
-def _texts(name: str, data: Mapping[str, Any]) -> tuple[dict[str, Any], list[str]]:
-    texts: dict[str, Any]
-    texts, problems = title_and_description(name, data)
-    companions = data.get("companions", [])
-    if not isinstance(companions, list) or not all(isinstance(c, str) for c in companions):
-        problems.append(complaint("companions", companions, "must be a list of names of studies"))
-        companions = []
-    return texts | {"companions": tuple(companions)}, problems
 
 
 def _compare(data: Mapping[str, Any], runs: list[str]) -> tuple[dict[str, Any], list[str]]:

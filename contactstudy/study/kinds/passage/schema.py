@@ -5,10 +5,11 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass, field
-from typing import Any, ClassVar
+from typing import Annotated, Any, ClassVar
 
 from contactstudy.irregularity import Irregularity
 from contactstudy.solvers.journey import Journey
+from contactstudy.study import study
 from contactstudy.study.kinds.passage.checks import combined
 from contactstudy.study.kinds.passage.runs import SOLVERS, PointRun, SurfaceRun
 from contactstudy.study.kinds.passage.scan import ScanFiles
@@ -16,6 +17,7 @@ from contactstudy.study.kinds.passage.solid import Solid
 from contactstudy.study.kinds.passage.wheelset import WheelsetPosition
 from contactstudy.track.model import Track
 from contactstudy.validation import (
+    Key,
     Table,
     Variants,
     complaint,
@@ -43,7 +45,7 @@ IRREGULARITY = "irregularity"
 
 
 @dataclass(frozen=True)
-class Study:
+class Study(study.Study):
     """A study file that has been read and found possible: its tables, and its `runs` in order.
 
     A study of the irregularity alone has no runs.
@@ -51,10 +53,6 @@ class Study:
 
     kind: ClassVar[str] = "passage"
 
-    name: str
-    title: str
-    description: str = ""
-    companions: tuple[str, ...] = ()
     irregularity: Irregularity = field(default_factory=Irregularity)
     track: Track = field(default_factory=Track)
     vehicle: WheelColumn | BareWheel = field(default_factory=WheelColumn)
@@ -63,12 +61,14 @@ class Study:
     wheelset: WheelsetPosition = field(default_factory=WheelsetPosition)
     scan: ScanFiles = field(default_factory=ScanFiles)
     runs: dict[str, PointRun | SurfaceRun] = field(default_factory=dict)
-    reference: str | None = None
-    #: Whether each run is also run on a smooth rail, for the part that the irregularity causes.
-    smooth: bool = False
+    smooth: Annotated[
+        bool, Key("compare.smooth"),
+        "whether each run is also run on a smooth rail, for the part that the irregularity causes",
+    ] = False  # fmt: skip
 
     def __post_init__(self) -> None:
         """Refuse what is impossible in combination, as in a file; cells fit the supports."""
+        super().__post_init__()
         runs = self.runs if isinstance(self.runs, dict) else {}
         parts: dict[str, tuple[Table | type, Any]] = {"runs": (dict, self.runs)}
         parts |= {key: (SECTIONS[key], getattr(self, key)) for key in SECTIONS}

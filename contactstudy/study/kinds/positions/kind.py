@@ -8,6 +8,7 @@ from contactstudy.study.kind import Inputs, Kind, later
 from contactstudy.study.kinds.positions.table import Positions, PositionsStudy
 
 _HERE = "contactstudy.study.kinds.positions"
+CSV_FILE = "patches.csv"
 
 
 class PositionsKind(Kind):
@@ -15,6 +16,7 @@ class PositionsKind(Kind):
 
     name = "positions"
     computing = f"{_HERE}.press:press_one"
+    files = (CSV_FILE,)
     about = "A wheelset pressed on its rails at given positions, both as half-spaces."
     form = None
     tables: ClassVar = {"positions": Positions}

@@ -11,14 +11,13 @@ import numpy as np
 
 from contactstudy.files import writing
 from contactstudy.study.kind import Cost
+from contactstudy.study.kinds.positions.kind import CSV_FILE
 from contactstudy.study.kinds.positions.press import VARIABLES
 from contactstudy.study.kinds.positions.table import PositionsStudy
 from contactstudy.study.results import StudyResults
 
 if TYPE_CHECKING:
     import xarray as xr
-
-CSV_FILE = "patches.csv"
 
 
 def collect(

@@ -19,8 +19,8 @@ from contactstudy.study.kinds.passage.wheelset import (
     off_track,
     smooth_profiles,
 )
-from contactstudy.study.loading import title_and_description
 from contactstudy.study.overrides import Overrides, override
+from contactstudy.study.study import Study, read_texts
 from contactstudy.track.rail import Rail
 from contactstudy.units import UnitError, to_si
 from contactstudy.validation import (
@@ -131,17 +131,12 @@ class Positions(WheelsetDimensions):
 
 
 @dataclass(frozen=True)
-class PositionsStudy:
+class PositionsStudy(Study):
     """A study of positions that has been read and found possible."""
 
     kind: ClassVar[str] = "positions"
 
-    name: str
-    title: str
-    description: str = ""
     table: Positions = field(default_factory=Positions)
-    companions: tuple[str, ...] = ()
-    reference: str | None = None
 
     @cached_property
     def wheelset(self) -> Wheelset:
@@ -192,7 +187,7 @@ def load_positions(
     resolve_paths(Positions, data["positions"], path.parent)
     found = override(data, overrides, {"positions": Positions})
     found += [unknown("", key, _TOP_LEVEL) for key in data if key not in _TOP_LEVEL]
-    texts, wrong_texts = title_and_description(path.stem, data)
+    texts, wrong_texts = read_texts(data)
     table, wrong = read(Positions, data["positions"], "positions")
     raise_if(found + wrong_texts + wrong)
-    return PositionsStudy(path.stem, texts["title"], texts["description"], table)
+    return PositionsStudy(path.stem, **texts, table=table)
