@@ -1,4 +1,4 @@
-"""Commands: run, check, reproduce, verify, export, studies, keys, cache.
+"""Commands: run, check, reproduce, status, verify, export, studies, keys, cache.
 
 Exit status 0, 1 (broke down, or a check fails), 2 (input), 130 (interrupted).
 """
@@ -199,6 +199,21 @@ def export(
     loaded = load_study(study, overrides)
     options = {"run": run, "load": load, "rail_length": rail_length}
     print(find_kind(loaded.kind).export(loaded, out, **options))
+
+
+@app.command
+def status(folder: Path) -> None:
+    """Say what of a study is done, failed and left, and how long that will take.
+
+    Parameters
+    ----------
+    folder
+        Where its results go, as given with --out.
+    """
+    from contactstudy.study.status import status as lines
+
+    for line in lines(folder):
+        print(line)
 
 
 @app.command

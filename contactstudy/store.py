@@ -103,6 +103,22 @@ class Store:
         except _UNREADABLE as error:
             return Kept(damage=f"{path}: is damaged ({error})")
 
+    def about(self, name: str, key: str) -> Mapping[str, Any] | None:
+        """What was said about an entry when it was saved; None if it is not there."""
+        if not self.has(name, key):
+            return None
+        try:
+            slip = json.loads(self.path(name, key).with_suffix(".json").read_text("utf-8"))
+            found: Mapping[str, Any] = slip["about"]
+        except _UNREADABLE:
+            return None
+        return found
+
+    def discard(self, name: str, key: str) -> None:
+        """Remove an entry, if it is there."""
+        for path in {self.path(name, key), self.path(name, key).with_suffix(".json")}:
+            path.unlink(missing_ok=True)
+
     def whole(self, name: str, key: str) -> Kept:
         """As `load`, without reading content that is a file: its value is True."""
         if self.form is None:

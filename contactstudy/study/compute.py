@@ -18,6 +18,7 @@ from contactstudy.store import Kept
 from contactstudy.study.axes.measure import measure
 from contactstudy.study.kind import imported
 from contactstudy.study.plan import FAILED, Piece, Plan
+from contactstudy.study.status import write_plan
 from contactstudy.study.study import Study
 
 BATCH = 64
@@ -58,6 +59,7 @@ def compute(plan: Plan, jobs: int, reporter: Reporter, executor: Executor | None
     for one in plan.all:
         _admit(one, [p for owner, p in todo if owner is one], reporter)
     failures: dict[Piece, str] = {}
+    write_plan(plan, jobs)
     if todo:
         failures = _run(plan, todo, jobs, reporter, executor)
         again = dict.fromkeys(p for _, p in todo)
@@ -141,6 +143,7 @@ def _run(
                     one.measures.save(FAILED, piece.key, _lines(piece, made))
             else:
                 one.store.save(piece.work.name, piece.key, *made)
+                one.measures.discard(FAILED, piece.key)
         shown.end(name, good)
 
     outcomes = run_tasks([*bodies.values(), *tasks.values()], jobs, shown, finished, executor)
@@ -158,12 +161,12 @@ def _groups(todo: Sequence[tuple[Plan, Piece]], jobs: int) -> Iterator[list[tupl
     """Pieces that are computed together, at the place of the first of them."""
     batches: dict[tuple[int, str], list[tuple[Plan, Piece]]] = {}
     for one, piece in todo:
-        if piece.work.batch:
+        if piece.work.batch and one.swept:
             batches.setdefault((id(one), piece.work.batch), []).append((one, piece))
     # some batches for each worker, so that all end at about the same time
     size = {key: min(BATCH, max(1, -(-len(own) // (2 * jobs)))) for key, own in batches.items()}
     for one, piece in todo:
-        if not piece.work.batch:
+        if not (piece.work.batch and one.swept):
             yield [(one, piece)]
         elif own := batches.pop((id(one), piece.work.batch), None):
             step = size[id(one), piece.work.batch]

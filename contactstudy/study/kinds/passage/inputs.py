@@ -9,6 +9,7 @@ from typing import Any
 from contactstudy.files import file_digest
 from contactstudy.irregularity.shown import to_dataset
 from contactstudy.profiles.wheel_file import named_file_digest
+from contactstudy.store import digest
 from contactstudy.study.kind import Inputs, Work
 from contactstudy.study.kinds.passage.build import journey, recipe
 from contactstudy.study.kinds.passage.placing import contact_zone, scan_meeting
@@ -20,6 +21,11 @@ from contactstudy.study.kinds.passage.wheelset import PATHS as WHEELSET_PATHS
 
 #: Steps of a beam that take about as long as a process takes to start.
 LIGHT = 20_000
+# keys of a point run that decide its matrices
+_STEPPING = (
+    "rail", "elements_per_bay", "local_compliance", "direction", "time_step", "integrator",
+    "rho_inf",
+)  # fmt: skip
 
 
 def read_inputs(study: Study) -> Inputs:
@@ -85,11 +91,20 @@ def work(study: Study, inputs: Inputs) -> list[Work]:
 
     def piece(name: str) -> Work:
         owner, run = untwinned(study, name)
-        light = not study.meshes_rail(run) and journey(study, run).n_steps <= LIGHT
         long = study.runs[run].needs_solid
-        return Work(name, _run_inputs(owner, inputs, run), long=long, light=light)
+        light = not long and study.wheel(run) != "modal" and journey(study, run).n_steps <= LIGHT
+        batch = _batch(owner, inputs, run) if light else ""
+        return Work(name, _run_inputs(owner, inputs, run), long=long, light=light, batch=batch)
 
     return [piece(name) for name in (*study.runs, *twins(study).values())]
+
+
+def _batch(study: Study, inputs: Inputs, run: str) -> str:
+    """Hash of what runs share that are stepped together: the matrices, and how far they go."""
+    table = study.resolved_run(run)
+    shared = [inputs.config[key] for key in ("track", "vehicle")]
+    stepping = [table.get(key) for key in _STEPPING]
+    return digest([shared, study.solid.mesh_size, stepping, journey(study, run).n_steps])
 
 
 def _run_inputs(study: Study, inputs: Inputs, run: str) -> list[Any]:
