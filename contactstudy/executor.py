@@ -86,8 +86,8 @@ def run_tasks(
     KeyboardInterrupt
         After all workers have been ended.
     """
-    if jobs < 1:
-        raise InputError(f"jobs = {jobs}: must be a whole number at least 1")
+    if not isinstance(jobs, int) or jobs < 1:
+        raise InputError(f"jobs = {jobs!r}: must be a whole number at least 1")
     reporter = reporter or Quiet()
     events: queue.SimpleQueue[Any] = queue.SimpleQueue()
 

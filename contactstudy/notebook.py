@@ -12,6 +12,7 @@ from contactstudy.driver import compute_study, run_study
 from contactstudy.exceptions import InputError
 from contactstudy.reporter import Quiet
 from contactstudy.solids.cache import cache_directory
+from contactstudy.study.axes.swept import Swept
 from contactstudy.study.loading import load_study
 from contactstudy.study.results import StudyResults
 from contactstudy.study.study import Study
@@ -39,7 +40,7 @@ def load(study: str | Path, values: Mapping[str, Any] | None = None, *, quick: b
     InputError
         Listing every problem.
     """
-    return load_study(study, values or {}, quick=quick)
+    return load_study(study, _mapping("values", values), quick=quick)
 
 
 def check(study: str | Path | Study, values: Mapping[str, Any] | None = None) -> None:
@@ -130,11 +131,22 @@ def sweep(
     InputError
         Listing every impossible variant, before anything runs.
     """
-    results = _run(load_study(study, values or {}, sweep=series), out, jobs, False)
-    return next(iter(results.designs.values()))
+    made = load_study(study, _mapping("values", values), sweep=_mapping("series", series))
+    if not isinstance(made, Swept):
+        raise InputError(f"series = {series!r}: must name at least one key that is varied")
+    return next(iter(_run(made, out, jobs, False).designs.values()))
+
+
+def _mapping(name: str, given: Mapping[str, Any] | None) -> Mapping[str, Any]:
+    if given is not None and not isinstance(given, Mapping):
+        form = "{'journey.speed': '250 km/h'}"
+        raise InputError(f"{name} = {given!r}: must be a mapping from dotted keys, e.g. {form}")
+    return given or {}
 
 
 def _run(study: Study, out: str | Path | None, jobs: int, quick: bool) -> StudyResults:
+    if not isinstance(out, str | Path | None):
+        raise InputError(f"out = {out!r}: must be a folder")
     with TerminalReporter(Console(stderr=True)) as reporter:
         if out is None:
             return compute_study(study, cache_directory(), jobs, reporter, quick)

@@ -63,7 +63,12 @@ def read_texts(
 ) -> tuple[dict[str, Any], list[str]]:
     """Values of dotted keys that an option of the command line, or a mapping, gives."""
     if isinstance(given, Mapping):
-        return dict(given), []
+        good = {k: v for k, v in given.items() if isinstance(k, str) and all(k.split("."))}
+        return good, [
+            f"{key!r}: must be a dotted key, e.g. 'journey.speed'"
+            for key in given
+            if key not in good
+        ]
     values, problems = dict[str, Any](), []
     for text in given:
         key, equals, written = (part.strip() for part in text.partition("="))
@@ -85,8 +90,6 @@ def read_texts(
 
 
 def _put(data: dict[str, Any], key: str, value: Any) -> list[str]:
-    if not isinstance(key, str) or not all(key.split(".")):
-        return [f"{key!r}: must be a dotted key, e.g. 'journey.speed'"]
     *path, last = key.split(".")
     for part in path:
         data = data.setdefault(part, {})

@@ -103,6 +103,21 @@ def test_what_is_no_key_is_refused(key):
         cs.load("smooth_rail", {key: 4, "journey.speed": 50.0})
 
 
+@pytest.mark.parametrize("values", ["journey.speed=3", ["journey.speed=3"], 3, {"journey.speed"}])
+def test_what_is_no_mapping_is_refused(values):
+    for call in (cs.load, cs.check, cs.run, cs.sweep):
+        with pytest.raises(InputError, match="must be a mapping from dotted keys"):
+            call("smooth_rail", values)
+
+
+def test_a_sweep_varies_something():
+    for series in ({}, None, {3: [1, 2]}, {"combine": "zip"}):
+        with pytest.raises(InputError, match=r"must name at least one key|dotted key"):
+            cs.sweep("smooth_rail", series)
+    with pytest.raises(InputError, match=r"out = 3: must be a folder"):
+        cs.run("smooth_rail", out=3)
+
+
 def test_values_of_a_caller_stay_as_they_are():
     table = {"spectrum": "paper", "seed": 2}
     cs.load("point_vs_surface", {"irregularity": table, "irregularity.spectrum": "smooth"})
