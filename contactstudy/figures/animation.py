@@ -11,8 +11,8 @@ from matplotlib.animation import PillowWriter
 from matplotlib.figure import Figure
 
 from contactstudy.arrays import Array
+from contactstudy.compare.signals import position, values
 from contactstudy.figures.patch import whole_grid
-from contactstudy.figures.signals import position, values
 from contactstudy.files import writing
 from contactstudy.plot.style import BLACK, VERMILION, figure_style, map_axes, new_figure
 from contactstudy.plot.text import exact, label

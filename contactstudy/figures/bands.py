@@ -5,7 +5,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, NullLocator
 
-from contactstudy.figures.signals import compared, fade_end, has_signal, speed, styles, values
+from contactstudy.compare.signals import speed, values
+from contactstudy.figures.signals import compared, fade_end, has_signal, styles
 from contactstudy.irregularity.estimate import ThirdOctaves, third_octave_levels
 from contactstudy.plot.drawing import Drawing
 from contactstudy.plot.style import BLACK, figure_legend, new_figure

@@ -6,15 +6,14 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from contactstudy.compare.signals import position, values
 from contactstudy.figures.signals import (
     SIGNALS,
     Signal,
     compared,
     fade_end,
     has_signal,
-    position,
     styles,
-    values,
     wheel_note,
 )
 from contactstudy.plot.drawing import Drawing

@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter
 from numpy.typing import ArrayLike
 
-from contactstudy.figures.signals import position
+from contactstudy.compare.signals import position
 from contactstudy.irregularity.shown import IrregularityInfo, Level, SpectrumCurve, from_dataset
 from contactstudy.plot.drawing import Drawing
 from contactstudy.plot.style import BLACK, BLUE, GREEN, SHADE, VERMILION, new_figure

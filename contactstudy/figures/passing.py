@@ -3,6 +3,7 @@
 import numpy as np
 from matplotlib.figure import Figure
 
+from contactstudy.compare.signals import position, values
 from contactstudy.figures.passing_components import (
     ORDERS,
     Passing,
@@ -10,7 +11,7 @@ from contactstudy.figures.passing_components import (
     component,
     spacing,
 )
-from contactstudy.figures.signals import position, styles, values, wheel_note
+from contactstudy.figures.signals import styles, wheel_note
 from contactstudy.plot.drawing import Drawing
 from contactstudy.plot.style import BLACK, GREY, figure_legend, new_figure
 from contactstudy.plot.text import exact, label, number

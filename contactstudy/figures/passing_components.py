@@ -7,7 +7,8 @@ import xarray as xr
 
 from contactstudy.arrays import Array
 from contactstudy.compare.passing import passing_amplitude
-from contactstudy.figures.signals import has_signal, position, values
+from contactstudy.compare.signals import position, values
+from contactstudy.figures.signals import has_signal
 from contactstudy.study.results import StudyResults
 
 ORDERS = 12  # of the support spacing: down to 50 mm for 0.6 m

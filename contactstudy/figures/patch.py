@@ -11,8 +11,8 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Ellipse
 
 from contactstudy.arrays import Array
+from contactstudy.compare.signals import position, values
 from contactstudy.figures.hertz_ellipse import HertzPatch, hertz_patch
-from contactstudy.figures.signals import position, values
 from contactstudy.plot.drawing import Drawing
 from contactstudy.plot.style import BLACK, VERMILION, map_axes, new_figure
 from contactstudy.plot.text import exact, label, number

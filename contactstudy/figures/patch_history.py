@@ -2,7 +2,8 @@
 
 from matplotlib.figure import Figure
 
-from contactstudy.figures.signals import fade_end, has_signal, position, styles, values
+from contactstudy.compare.signals import position, values
+from contactstudy.figures.signals import fade_end, has_signal, styles
 from contactstudy.plot.drawing import Drawing
 from contactstudy.plot.style import SHADE, figure_legend, new_figure
 from contactstudy.plot.text import label, number

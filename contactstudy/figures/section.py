@@ -10,7 +10,7 @@ from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 
 from contactstudy.arrays import Array
-from contactstudy.figures.signals import position, values
+from contactstudy.compare.signals import position, values
 from contactstudy.plot.drawing import Drawing
 from contactstudy.plot.style import BLACK, GREY, map_axes, new_figure
 from contactstudy.plot.text import exact, label, number

@@ -7,6 +7,7 @@ import xarray as xr
 
 from contactstudy.arrays import Array
 from contactstudy.compare import norms
+from contactstudy.compare.signals import position, values
 from contactstudy.plot.style import LineStyle, run_styles
 from contactstudy.study.results import StudyResults
 
@@ -38,16 +39,6 @@ def styles(results: StudyResults) -> dict[str, LineStyle]:
     return run_styles(list(results.runs), results.reference)
 
 
-def position(run: xr.Dataset) -> Array:
-    """Position (time,) of the leading wheel along the track in m."""
-    return _leading(run["position"])
-
-
-def values(run: xr.Dataset, name: str) -> Array:
-    """Variable `name` (time,) of the leading wheel in SI units."""
-    return _leading(run[name])
-
-
 def has_signal(run: xr.Dataset, name: str) -> bool:
     """Whether the run carries the signal over time."""
     return name in run and "time" in run[name].dims
@@ -58,12 +49,6 @@ def fade_end(results: StudyResults) -> float:
     start = min(float(position(run)[0]) for run in results.runs.values())
     journey = results.config.get("journey", {})
     return start + float(journey.get("fade_in", 0.0))
-
-
-def speed(run: xr.Dataset) -> float:
-    """Speed of the run in m/s."""
-    x, t = position(run), run["time"].values
-    return float((x[-1] - x[0]) / (t[-1] - t[0]))
 
 
 def compared(
@@ -81,12 +66,6 @@ def compared(
         norms.at_positions(values(reference, signal), x_reference, x),
         norms.at_positions(values(run, signal), x_run, x),
     )
-
-
-def _leading(data: xr.DataArray) -> Array:
-    if "wheel" in data.dims:
-        data = data.isel(wheel=0)
-    return np.asarray(data.values, dtype=np.float64)
 
 
 def wheel_note(results: StudyResults) -> str:

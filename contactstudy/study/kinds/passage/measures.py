@@ -20,8 +20,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from contactstudy.arrays import Array
+from contactstudy.compare.signals import position
 from contactstudy.study.axes.measured import Measured, measured
-from contactstudy.study.kinds.passage.metrics import compare_runs, parts_of, position
+from contactstudy.study.kinds.passage.metrics import compare_runs, parts_of
 from contactstudy.study.kinds.passage.schema import Study
 from contactstudy.study.kinds.passage.twins import SMOOTH, with_twins
 

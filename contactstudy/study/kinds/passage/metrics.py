@@ -29,6 +29,7 @@ import numpy as np
 from contactstudy.arrays import Array
 from contactstudy.compare import norms
 from contactstudy.compare.bands import level_differences
+from contactstudy.compare.signals import position, speed
 from contactstudy.study.kinds.passage.schema import Study
 from contactstudy.study.kinds.passage.twins import SIGNALS, SMOOTH
 
@@ -129,7 +130,7 @@ def _compare_signals(
         made[f"relative_l2_{part}"] = _number(norms.relative_l2(*pair, x))
         made[f"sprague_geers_{part}"] = _sprague_geers(*pair, x)
         if bands and part == "dynamic":
-            made["third_octave"] = level_differences(*pair, x, _speed(reference))
+            made["third_octave"] = level_differences(*pair, x, speed(reference))
     return made
 
 
@@ -140,17 +141,6 @@ def _sprague_geers(a: Any, b: Any, x: Array) -> dict[str, float | None]:
         "P": _number(found.phase),
         "C": _number(found.combined),
     }
-
-
-def position(run: xr.Dataset) -> Array:
-    """Position (n,) of the leading wheel in m."""
-    position = run["position"]
-    return np.asarray((position.isel(wheel=0) if "wheel" in position.dims else position).values)
-
-
-def _speed(run: xr.Dataset) -> float:
-    x, t = position(run), run["time"].values
-    return float((x[-1] - x[0]) / (t[-1] - t[0]))
 
 
 def _number(value: float) -> float | None:

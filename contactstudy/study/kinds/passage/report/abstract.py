@@ -4,9 +4,10 @@ from collections.abc import Iterable
 
 import numpy as np
 
+from contactstudy.compare.signals import position, speed, values
 from contactstudy.figures.irregularity import comparisons, irregularity_of
 from contactstudy.figures.passing_components import all_passing
-from contactstudy.figures.signals import fade_end, position, speed, values
+from contactstudy.figures.signals import fade_end
 from contactstudy.plot.text import capital, exact, label, number
 from contactstudy.report.quantity import grouped, percent
 from contactstudy.study.kinds.passage.report.metrics import between, of_run

@@ -3,7 +3,7 @@
 import numpy as np
 import xarray as xr
 
-from contactstudy.figures.signals import position, values
+from contactstudy.compare.signals import position, values
 from contactstudy.plot.text import exact, label, number
 from contactstudy.report.blocks import Block, table
 from contactstudy.study.results import StudyResults
