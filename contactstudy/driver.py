@@ -23,6 +23,7 @@ from contactstudy.study.results import (
     read_results,
     write_results,
 )
+from contactstudy.study.status import write_plan
 from contactstudy.study.study import Study
 
 FINISHED = "finished"
@@ -55,6 +56,7 @@ def run_study(
     if (done := _finished_results(plan)) is not None:
         reporter.note(f"{out_dir}: all results are there and up to date")
         return done
+    write_plan(plan, jobs)
     results = _computed(plan, jobs, reporter)
     with reporter.stage("writing the results"):
         written = _write(results, out_dir)

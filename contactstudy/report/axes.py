@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 from collections import Counter
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from contactstudy.figures import axes
 from contactstudy.plot.text import capital, label
 from contactstudy.report.blocks import Block, bullets, figure, table, text
+from contactstudy.report.quantity import quantity
 from contactstudy.study.axes.axis import axis_of, title_of
 from contactstudy.study.axes.convergences import convergences
 from contactstudy.study.axes.dataset import FAILURE
@@ -15,6 +19,9 @@ from contactstudy.study.axes.tables import tables
 from contactstudy.study.kind import Part
 from contactstudy.study.results import StudyResults
 
+if TYPE_CHECKING:
+    import xarray as xr
+
 _FAILED = 12  # failures that are listed
 
 
@@ -22,23 +29,55 @@ def abstract(results: StudyResults) -> list[str]:
     """What is varied, what is found, and what failed."""
     told = []
     for name, data in results.designs.items():
-        keys = [str(k) for k in data.coords if set(data[k].dims) <= set(data["variant"].dims)]
-        ranges = "; ".join(_range(results, name, key) for key in keys)
-        what = "varied" if not data.attrs["refined"] else "refined"
-        told.append(f"{data['variant'].size} variants of the study: {what} are {ranges}.")
+        ranges = [f"{title_of(key)} ({_values(results, name, key)})" for key in _how(data)]
+        what = "refined" if data.attrs["refined"] else "varied"
+        verb = "is" if len(ranges) == 1 else "are"
+        told.append(f"{data['variant'].size} variants: {what} {verb} {' and '.join(ranges)}.")
     lost = len(results.failures)
     if lost:
         told.append(f"{lost} variants could not be computed; they are left out of all numbers.")
     verdicts = Counter(
         line.verdict
-        for quantity in shown(results)
-        if quantity.data.attrs["refined"]
-        for line in convergences(quantity)
+        for one in shown(results)
+        if one.data.attrs["refined"]
+        for line in convergences(one)
     )
     if verdicts:
         counts = ", ".join(f"{n} “{verdict}”" for verdict, n in verdicts.items())
         told.append(f"Verdicts of the refinements: {counts}.")
-    return [" ".join(told), *(drawing.caption for drawing in axes.drawings(results)[:1])]
+    swept = [name for name, data in results.designs.items() if not data.attrs["refined"]]
+    first = [d.caption for d in axes.drawings(results) if swept and d.name.startswith(swept[0])]
+    return [" ".join(told), *first[:1]]
+
+
+def subject(results: StudyResults) -> list[Block]:
+    """The runs as the study has them, and the keys that are varied."""
+    runs = results.config.get("runs", {})
+    listed = [
+        f"{label(name)}: "
+        + ", ".join(_told(results, f"runs.{name}.{k}", v) for k, v in run.items())
+        for name, run in runs.items()
+    ]
+    rows = [
+        [title_of(key), _values(results, name, key), how]
+        for name, data in results.designs.items()
+        for key, how in _how(data).items()
+    ]
+    columns = ["Key", "Values", "How"]
+    varied = table(columns, rows, "Keys that are varied.", 3) | {"size": 8.5}
+    return [*([bullets(listed)] if listed else []), varied]
+
+
+def _told(results: StudyResults, key: str, value: Any) -> str:
+    shown = " ".join(quantity(value, results.units.get(key, ""))).strip()
+    return f"{label(key.rpartition('.')[2])} {label(shown)}"
+
+
+def _how(data: xr.Dataset) -> dict[str, str]:
+    """Key of a design -> how it is varied."""
+    refined, combine = data.attrs["refined"], data.attrs["combine"].replace("_", " ")
+    keys = [str(k) for k in data.coords if set(data[k].dims) <= set(data["variant"].dims)]
+    return {key: "refined" if key == refined else combine for key in keys}
 
 
 def parts(results: StudyResults) -> list[Part]:
@@ -72,12 +111,13 @@ _REFINED = (
 )
 
 
-def _range(results: StudyResults, design: str, key: str) -> str:
-    data = results.designs[design]
-    along = axis_of(data, key)
-    if len(along.names) > 4:
-        return f"{title_of(key)}, {along.names[0]} to {along.names[-1]} ({len(along.names)} values)"
-    return f"{title_of(key)}, {', '.join(along.names)}"
+def _values(results: StudyResults, design: str, key: str) -> str:
+    along = axis_of(results.designs[design], key)
+    if len(along.names) <= 4:
+        return ", ".join(along.names)
+    order = np.argsort(along.at)
+    first, last = (along.names[k] for k in (order[0], order[-1]))
+    return f"{first} to {last}, {len(along.names)} values"
 
 
 def _failures(results: StudyResults, design: str) -> list[str]:

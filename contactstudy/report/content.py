@@ -45,7 +45,15 @@ def _report(results: StudyResults, timings: bool) -> Report:
     if not results.swept:
         return own
     parts = [*axes.parts(results), *own.parts]
-    return replace(own, abstract=axes.abstract(results), parts=parts, as_companion=None)
+    subject = axes.subject(results)
+    companion = [{"title": "What is varied", "blocks": subject}, *parts]
+    return replace(
+        own,
+        abstract=axes.abstract(results),
+        subject=subject,
+        parts=parts,
+        as_companion=companion,
+    )
 
 
 def _companion(results: StudyResults, timings: bool) -> Content:

@@ -34,13 +34,17 @@ _NAMES = {
 def parameter_tables(results: StudyResults) -> list[Block]:
     """One table for each table of the resolved study that its kind has a title for."""
     kind, made = find_kind(results.kind), []
+    varied = {str(k) for d in results.designs.values() if not d.attrs["refined"] for k in d.coords}
     for section, title in kind.titles.items():
         if values := results.config.get(section):
             known, rows = entries(kind.tables[section]), []
             for key, value in values.items():
                 shown, unit = _shown(value, results.units.get(f"{section}.{key}", ""))
+                origin = _origin(known.get(key), value)
+                if f"{section}.{key}" in varied:
+                    shown, unit, origin = "varied", "", "study"
                 name = _NAMES.get(key, key.replace("_", " "))
-                rows.append([name, shown, unit, _origin(known.get(key), value)])
+                rows.append([name, shown, unit, origin])
             columns = ["Parameter", "Value", "Unit", "Given by"]
             made.append(table(columns, rows, f"{title}.", 1) | {"size": 8.5})
             made[-1]["columns"][2]["align"] = made[-1]["columns"][3]["align"] = "left"

@@ -18,7 +18,6 @@ from contactstudy.store import Kept
 from contactstudy.study.axes.measure import measure
 from contactstudy.study.kind import imported
 from contactstudy.study.plan import FAILED, Piece, Plan
-from contactstudy.study.status import write_plan
 from contactstudy.study.study import Study
 
 BATCH = 64
@@ -59,7 +58,6 @@ def compute(plan: Plan, jobs: int, reporter: Reporter, executor: Executor | None
     for one in plan.all:
         _admit(one, [p for owner, p in todo if owner is one], reporter)
     failures: dict[Piece, str] = {}
-    write_plan(plan, jobs)
     if todo:
         failures = _run(plan, todo, jobs, reporter, executor)
         again = dict.fromkeys(p for _, p in todo)

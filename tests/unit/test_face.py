@@ -33,7 +33,7 @@ def test_unknown_names_are_refused():
         cs.surface_contacts  # noqa: B018
 
 
-@pytest.mark.parametrize("code", SNIPPETS, ids=["study", "solvers"])
+@pytest.mark.parametrize("code", SNIPPETS, ids=["study", "sweep", "solvers"])
 def test_snippets_of_the_readme(code, tmp_path):
     """As a script, without a guard for the worker processes."""
     script = tmp_path / "snippet.py"

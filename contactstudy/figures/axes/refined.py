@@ -46,7 +46,7 @@ def _draw(quantity: Shown, lines: list[Line]) -> Figure:
             fine = np.geomspace(h.min(), h.max(), 30)
             gain = np.exp(np.mean(np.log(error[good]) - line.order * np.log(h[good])))
             axes.plot(fine, gain * fine**line.order, **style.line)
-    axes.set(xscale="log", yscale="log", ylabel=f"{quantity.title}, from the limit")
+    axes.set(xscale="log", yscale="log", ylabel="Distance from the limit", title=quantity.title)
     axes.set_xlabel(f"1 / {along.title}" if along.at[0] < along.at[-1] else along.title)
     figure_legend(figure, axes)
     return figure
