@@ -1,6 +1,7 @@
 """The track with its rail as a beam: cubic Hermite elements, Euler-Bernoulli or Timoshenko."""
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Annotated, Literal
 
@@ -36,6 +37,7 @@ class BeamTrack(AssembledTrack, Parameters):
         False
     )
     direction: Annotated[Direction, "vertical or lateral"] = "Z"
+    _top_load: Callable[[Array], Array] | None = field(default=None, repr=False, compare=False)
 
     @property
     def n_elements(self) -> int:
@@ -74,8 +76,12 @@ class BeamTrack(AssembledTrack, Parameters):
         return compliance
 
     def top_load_compliance(self, x: Array) -> Array:
-        """Zero: a beam's section moves as one."""
-        return np.zeros(np.shape(x))
+        """Zero, for a beam's section moves as one, unless another is given."""
+        return self._top_load(x) if self._top_load else np.zeros(np.shape(x))
+
+    def with_top_load(self, compliance: Callable[[Array], Array]) -> "BeamTrack":
+        """The same beam with a `top_load_compliance`, see `track.bay`."""
+        return replace(self, _top_load=compliance)
 
     @cached_property
     def _inner(self) -> InnerDofs | None:

@@ -26,7 +26,7 @@ from contactstudy.arrays import Array
 from contactstudy.dynamics.banded import Factor
 from contactstudy.track.discrete import AssembledTrack
 from contactstudy.track.meshed import MeshedTrack
-from contactstudy.track.model import DiscreteSupports
+from contactstudy.track.model import DiscreteSupports, Track
 from contactstudy.track.rail import Direction
 
 _SAMPLES = 25
@@ -54,25 +54,33 @@ class AssembledMesh(AssembledTrack):
     @cached_property
     def _top_load(self) -> Callable[[Array], Array]:
         """2 F_Bp(X) - F_Bp(mid) as a function of X, that of the middle bay in all bays."""
-        from scipy.interpolate import CubicSpline
-
         track = cast(MeshedTrack, self)
-        factor, bay, middle = Factor(track.stiffness), track.track.bay_length, track.track.middle
+        factor, middle = Factor(track.stiffness), track.track.middle
         at_middle = _pair(track, factor, middle)
         if not isinstance(track.track.support, DiscreteSupports):
             return lambda x: np.full(np.shape(x), at_middle)
-        # on planes of the mesh, so that no phase of it matters
-        planes = np.unique(np.round(np.linspace(0.0, 0.5 * bay, _SAMPLES) / track.thickness))
-        offset = np.minimum(planes * track.thickness, 0.5 * bay)
+        offset = bay_planes(track.track, self.thickness)
         values = np.array([_pair(track, factor, middle - x) for x in offset])
-        knots, first = np.unique(np.r_[-offset, offset].round(12), return_index=True)
-        spline = CubicSpline(knots, np.r_[values, values][first])
+        return even_over_bay(track.track, offset, 2 * values - at_middle)
 
-        def compliance(x: Array) -> Array:
-            from_middle = np.mod(np.asarray(x) - middle + 0.5 * bay, bay) - 0.5 * bay
-            return np.asarray(2 * spline(from_middle) - at_middle)
 
-        return compliance
+def bay_planes(track: Track, thickness: float) -> Array:
+    """Distances from mid-bay to a support on planes of the mesh, so that no phase of it matters."""
+    half = 0.5 * track.bay_length
+    planes = np.unique(np.round(np.linspace(0.0, half, _SAMPLES) / thickness))
+    return np.minimum(planes * thickness, half)
+
+
+def even_over_bay(track: Track, distance: Array, values: Array) -> Callable[[Array], Array]:
+    """Function of X from values at distances (k,) from mid-bay [m], the same in all bays."""
+    from scipy.interpolate import CubicSpline
+
+    bay = track.bay_length
+    knots, first = np.unique(np.r_[-distance, distance].round(12), return_index=True)
+    spline = CubicSpline(knots, np.r_[values, values][first])
+    return lambda x: np.asarray(
+        spline(np.mod(np.asarray(x) - track.middle + 0.5 * bay, bay) - 0.5 * bay)
+    )
 
 
 def _pair(track: MeshedTrack, factor: Factor, x: float) -> float:

@@ -18,6 +18,7 @@ from contactstudy.solvers.journey import Journey
 from contactstudy.solvers.passage import Passage
 from contactstudy.solvers.point import point_contact, point_coupling
 from contactstudy.solvers.surface import surface_contact
+from contactstudy.track.bay import BayRecipe, bay_compliance
 from contactstudy.track.model import Track, WinklerFoundation
 from contactstudy.track.solid import SolidTrack, solid_rail
 from contactstudy.vehicle import wheel_column
@@ -61,10 +62,10 @@ def softness_of_the_surface(on, places):
     return np.array(found)
 
 
-def softness_of_the_point(on, places):
+def softness_of_the_point(on, places, pressed=None):
     """The same of the point on the rail with the tangent spring, and without the correction."""
     # the slope of the computed polygon, with the same points in contact
-    spring = geometry_press(on, contact(), np.array([LOAD])).stiffness[0]
+    spring = geometry_press(pressed or on, contact(), np.array([LOAD])).stiffness[0]
     own, factor = [], Factor(on.stiffness)
     for dofs, weights in zip(*on.rail_rows(places), strict=True):
         row = np.zeros(on.n_dofs)
@@ -134,3 +135,33 @@ def test_dynamic_part_and_sleeper_passing_come_near_those_of_the_surface():
     print(f"dynamic part {difference:.2%} off; passing: surface, point {100 * np.array(passing)} %")
     assert difference < 0.015
     assert abs(passing[1] / passing[0] - 1) < 0.05
+
+
+def test_a_beam_with_the_compliance_of_the_bay():
+    # the give of the meshed rail less that of the beam, against surface contact's own softness
+    on = track()
+    beam = BayRecipe(on.track, "timoshenko", 4, RECIPE)
+    corrected = beam.beam.with_top_load(bay_compliance(beam).over_bay())
+    places = 3.0 + 0.6 * np.array([0.0, 0.08, 0.17, 0.25, 0.33, 0.5, 0.67, 1.0])
+    surface = softness_of_the_surface(on, places)
+    found, plain = softness_of_the_point(corrected, places, on)
+    off = [100 * np.ptp(c - surface) / np.ptp(surface) for c in (found, plain)]
+    print(f"change over the bay off by {off[0]:.1f} %, without the correction by {off[1]:.1f} %")
+    assert off[0] < 5 and off[1] > 15
+    np.testing.assert_allclose(found, surface, rtol=3e-3)
+
+
+def test_sleeper_passing_of_a_corrected_beam():
+    on, vehicle = track(length=12.0), wheel_column()
+    recipe = BayRecipe(on.track, "timoshenko", 4, RECIPE)
+    corrected = recipe.beam.with_top_load(bay_compliance(recipe).over_bay())
+    journey = Journey(2.4, 9.6, time_step=1e-4, fade_in=1.2)
+    surface = surface_contact(on, contact(), vehicle, SmoothRail(), journey)
+    late = surface.position.values > 4.8
+    found = {}
+    for name, rail in (("plain", recipe.beam), ("corrected", corrected)):
+        point = point_contact(rail, vehicle, SmoothRail(), journey, law=LinearSpring(k_r(on)))
+        apart = (point.contact_force - surface.contact_force).values[late]
+        found[name] = np.std(apart) / np.std(surface.contact_force.values[late])
+    print({name: f"{value:.1%}" for name, value in found.items()})
+    assert found["corrected"] < 0.5 * found["plain"] and found["plain"] > 0.3

@@ -122,6 +122,8 @@ def test_a_path_in_a_file_is_relative_to_the_file(tmp_path):
         (point(k_r="0 x tangent"), ["runs.point.k_r", "multiple"]),
         (point(k_r="2 x rigid"), ["runs.point.k_r", "multiple"]),
         (point(patch_filter="following"), ["only with contact_filter"]),
+        (point(bay_compliance=True), ["runs.point.local_compliance", "must be true"]),
+        (point(rail="solid", bay_compliance=True), ["bay_compliance: applies only with"]),
         (point(contact_filter="bedding"), ["runs.point.law", '"hertz" with contact_filter']),
         (point(contact_filter="patch", patch_filter="following"), ["runs.point.law"]),
         ({"track": {"rail": "given"}} | point(law="press"), ["needs a rail with a profile"]),

@@ -9,8 +9,9 @@ from contactstudy.contact.filters import PatchMean, Trajectory
 from contactstudy.contact.laws import HertzSpring, LinearSpring, PressSpring
 from contactstudy.contact.patch_laws import FollowingPatch, WinklerBedding
 from contactstudy.halfspace.hertz import contact_modulus, hertz_contact
-from contactstudy.study.kinds.passage import contact
+from contactstudy.study.kinds.passage import build, contact
 from contactstudy.study.kinds.passage.execution import execute_run
+from contactstudy.study.kinds.passage.runs import PointRun
 from contactstudy.study.kinds.passage.schema import Study
 from contactstudy.study.loading import load_study
 
@@ -33,9 +34,10 @@ solver = "point"
 """
 
 
-def study(folder: Path, **keys: str) -> Study:
+def study(folder: Path, switches: str = "", **keys: str) -> Study:
     path = folder / "study.toml"
-    path.write_text(STUDY + "".join(f'{key} = "{value}"\n' for key, value in keys.items()))
+    lines = [f'{key} = "{value}"' for key, value in keys.items()]
+    path.write_text("\n".join([STUDY, *lines, *(f"{s} = true" for s in switches.split())]))
     return load_study(path)
 
 
@@ -96,6 +98,21 @@ def test_the_press_in_all_its_uses(tmp_path: Path) -> None:
     assert isinstance(contact.contact_law(one, "one"), FollowingPatch)
     assert one.config()["runs"]["one"]["patch_weight"] == "press"
     assert [b.name for b in contact.bodies(one, "one")] == ["rail", "wheel", "press"]
+
+
+def test_compliance_of_the_bay(tmp_path: Path) -> None:
+    keys = {"rail": "timoshenko", "k_r": "tangent"}
+    one = study(tmp_path, **keys, switches="local_compliance bay_compliance")
+    assert [b.name for b in contact.bodies(one, "one")] == ["rail", "wheel", "bay", "press"]
+    table = one.runs["one"]
+    assert isinstance(table, PointRun)
+    track = build.track(one)
+    rail = build.point_track(one, table, track)
+    # nothing in mid-bay, where the press is made, and the same in all bays
+    middle = np.array([track.middle, track.middle - track.bay_length])
+    np.testing.assert_allclose(rail.top_load_compliance(middle), 0.0, atol=1e-15)
+    at_sleeper = float(rail.top_load_compliance(np.array([track.middle + 0.3]))[0])
+    assert 1e-11 < at_sleeper < 1e-10
 
 
 def test_a_run_beyond_its_press_says_so(tmp_path: Path) -> None:

@@ -18,6 +18,7 @@ from contactstudy.solvers.journey import Journey
 from contactstudy.study.kinds.passage.placing import contact_zone, geometry, meshed_rail
 from contactstudy.study.kinds.passage.runs import PointRun
 from contactstudy.study.kinds.passage.schema import Study
+from contactstudy.track.bay import BayRecipe, corrected_beam
 from contactstudy.track.beam import BeamTrack
 from contactstudy.track.discrete import DiscreteTrack
 from contactstudy.track.model import Track
@@ -79,6 +80,8 @@ def point_track(study: Study, table: PointRun, described: Track) -> DiscreteTrac
     """The track of a point run: on a beam, or on its meshed rail."""
     if table.rail == "solid":
         return solid_track(study, described)
+    if table.bay_compliance:
+        return corrected_beam(bay_recipe(study, table, described))
     return BeamTrack(
         described,
         table.rail,
@@ -86,6 +89,12 @@ def point_track(study: Study, table: PointRun, described: Track) -> DiscreteTrac
         table.local_compliance,
         table.direction,
     )
+
+
+def bay_recipe(study: Study, table: PointRun, described: Track) -> BayRecipe:
+    """Recipe of what a point run's beam lacks over a bay."""
+    assert table.rail != "solid"
+    return BayRecipe(described, table.rail, table.elements_per_bay, recipe(study))
 
 
 def wheel(study: Study, run: str | None = None) -> WheelFlexibility:

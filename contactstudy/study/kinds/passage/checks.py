@@ -40,11 +40,12 @@ def combined(tables: Mapping[str, Any], runs: Mapping[str, Run]) -> list[str]:
     if solid is None:
         return problems
     meshed = any(run.needs_solid for run in runs.values())
-    pressed = [run for run in runs.values() if isinstance(run, PointRun) and run.presses]
+    points = [run for run in runs.values() if isinstance(run, PointRun)]
+    pressed = [run for run in points if run.presses or run.bay_compliance]
     if meshed or pressed:
         if track is not None:
-            only_stiffness = not any(p.patch_of_press or p.law != "linear" for p in pressed)
-            problems += solid.problems_on(track, meshed or not only_stiffness)
+            more = any(p.patch_of_press or p.bay_compliance or p.law != "linear" for p in pressed)
+            problems += solid.problems_on(track, meshed or more)
         if vehicle is not None:
             problems += _wheel(solid, vehicle.wheel_radius)
         if wheelset is not None:

@@ -29,6 +29,7 @@ from contactstudy.study.kinds.passage.runs import PointRun
 from contactstudy.study.kinds.passage.scan import PATHS as SCAN_PATHS
 from contactstudy.study.kinds.passage.schema import Study
 from contactstudy.study.kinds.passage.wheelset import PATHS as WHEELSET_PATHS
+from contactstudy.track.bay import bay_body
 from contactstudy.track.model import GivenRail
 from contactstudy.validation import multiple
 
@@ -48,7 +49,7 @@ def press_table(study: Study, run: str) -> PressTable:
 
 
 def bodies(study: Study, run: str) -> list[CachedBody[Any]]:
-    """The condensed bodies that a run needs, and last their press."""
+    """The condensed bodies that a run needs, and last what is made of them."""
     needed = list[CachedBody[Any]]()
     if study.meshes_rail(run):
         needed.append(rail_body(build.recipe(study)))
@@ -56,6 +57,9 @@ def bodies(study: Study, run: str) -> list[CachedBody[Any]]:
         needed.append(wheel_body(build.wheel_recipe(study)))
     if study.needs_wheel_modes(run):
         needed.append(modes_body(build.modes_recipe(study)))
+    table = study.runs[run]
+    if isinstance(table, PointRun) and table.bay_compliance:
+        needed.append(bay_body(build.bay_recipe(study, table, build.track(study))))
     if study.presses(run):
         needed.append(_press_body(study, run))
     return needed

@@ -88,18 +88,18 @@ def execute_batch(
 
 
 def condensing(study: Study, run: str) -> list[Task]:
-    """Condensing the bodies of a run that the cache does not have, and their press after them."""
+    """Making the bodies of a run that the cache does not have, each after those it is made of."""
     study, run = untwinned(study, run)
     needed = [body for body in contact.bodies(study, run) if not is_cached(body)]
-    names = [_making(body) for body in needed]
+    names = [_MAKING.get(body.name, f"condensing the {body.name}") for body in needed]
     return [
-        Task(name, condense_body, (body,), tuple(names[:-1]) if body.name == "press" else ())
-        for name, body in zip(names, needed, strict=True)
+        Task(name, condense_body, (body,), tuple(names[:k]) if body.name in _MAKING else ())
+        for k, (name, body) in enumerate(zip(names, needed, strict=True))
     ]
 
 
-def _making(body: CachedBody[Any]) -> str:
-    return "pressing the bodies" if body.name == "press" else f"condensing the {body.name}"
+_MAKING = {"press": "pressing the bodies", "bay": "loading a bay"}
+"""What is made of condensed bodies."""
 
 
 def condense_body(body: CachedBody[Any], progress: Progress | None = None) -> None:

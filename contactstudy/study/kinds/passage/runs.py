@@ -48,6 +48,9 @@ class PointRun(Run):
     local_compliance: Annotated[bool, Same(BeamTrack, "element_compliance"), _BEAM] = (
         BeamTrack.element_compliance
     )
+    bay_compliance: Annotated[
+        bool, _BEAM, "static give under the wheel over a bay as that of the meshed rail"
+    ] = False
     law: Annotated[
         Literal["linear", "hertz", "press"], "contact law; the press is that of the meshed bodies"
     ] = "linear"
@@ -142,6 +145,7 @@ class PointRun(Run):
             f'with law = "{self.law}"': self.law != "linear",
             f'with contact_filter = "{self.contact_filter}"': self.contact_filter != "none",
             'with wheel = "modal"': self.wheel == "modal",
+            "with bay_compliance": self.bay_compliance,
         }
         problems = [
             complaint(key("direction"), "Y", f'must be "Z" {where}')
@@ -151,6 +155,9 @@ class PointRun(Run):
         if self.contact_filter == "bedding" and self.law != "hertz":
             allowed = 'must be "hertz" with contact_filter = "bedding", which spreads Hertz\'s law'
             problems.append(complaint(key("law"), self.law, allowed))
+        if self.bay_compliance and self.rail != "solid" and not self.local_compliance:
+            allowed = "must be true with bay_compliance, which adds what a beam cannot have"
+            problems.append(complaint(key("local_compliance"), False, allowed))
         following = self.contact_filter == "patch" and self.patch_filter == "following"
         if following and self.law == "linear":
             allowed = 'must be "hertz" or "press" with patch_filter = "following"'

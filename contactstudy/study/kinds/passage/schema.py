@@ -91,7 +91,9 @@ class Study(study.Study):
 
     def meshes_rail(self, run: str) -> bool:
         """Whether a run needs the meshed rail, as all do that need a meshed wheel."""
-        return self.runs[run].needs_solid or self.presses(run)
+        table = self.runs[run]
+        bay = isinstance(table, PointRun) and table.bay_compliance
+        return table.needs_solid or self.presses(run) or bay
 
     def meshes_wheel(self, run: str) -> bool:
         """Whether a run needs the elastic wheel."""
