@@ -1,11 +1,13 @@
-"""The irregularity of a study: generated from a spectrum, measured, or none."""
+"""The irregularity of a study: generated from a spectrum, a sinusoid, measured, or none."""
 
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
+import numpy as np
+
 from contactstudy.irregularity.measured import Interpolation, MeasuredProfile, measured_profile
-from contactstudy.irregularity.profile import Profile, SmoothRail
+from contactstudy.irregularity.profile import HarmonicProfile, Profile, SmoothRail
 from contactstudy.irregularity.psd import Spectrum
 from contactstudy.irregularity.sample import sample_profile
 from contactstudy.irregularity.spectra import NAMES, paper_spectrum, spectrum
@@ -24,6 +26,7 @@ from contactstudy.validation import quantities as q
 _PAPER = When("spectrum", "paper")
 _GENERATED = When("spectrum", *NAMES)
 _MEASURED = When("spectrum", "measured")
+_SINUSOID = When("spectrum", "sinusoid")
 # how a CSV file is read
 _CSV = (
     "x_column", "level_column", "level_unit", "origin", "wavelengths", "interpolation",
@@ -38,9 +41,9 @@ class Irregularity(Parameters):
     spectrum: Annotated[
         Literal[
             "paper", "german_low", "german_high", "fra1", "fra2", "fra3", "fra4", "fra5", "fra6",
-            "tbt3352", "measured", "smooth",
+            "tbt3352", "sinusoid", "measured", "smooth",
         ],
-        "formula that the profile is generated from, or a measured or smooth one",
+        "formula that the profile is generated from, or a sinusoid, a measured or a smooth one",
     ] = "paper"  # fmt: skip
     roughness: Annotated[
         float, Unit("m^2*rad/m"), Above(0), _PAPER, "A_r of eq. (3)"
@@ -55,9 +58,17 @@ class Irregularity(Parameters):
     jitter: Annotated[
         bool, _GENERATED, "wavenumbers at random in their intervals: nothing repeats itself"
     ] = False
+    wavelength: Annotated[
+        q.Length, _SINUSOID, "of r = amplitude cos(2 pi X/wavelength + phase)"
+    ] = 1.0
+    amplitude: Annotated[q.LengthOrZero, _SINUSOID, "half the height from trough to crest"] = 1e-5
+    phase: Annotated[float, Unit("rad"), _SINUSOID, "at X = 0"] = 0.0
     file: Annotated[str, File(), _MEASURED, "CSV file with the measured level"] = ""
     measured_overlay: Annotated[
-        str, File(), When("spectrum", *NAMES, "smooth"), "CSV file that is drawn beside it"
+        str,
+        File(),
+        When("spectrum", *NAMES, "sinusoid", "smooth"),
+        "CSV file that is drawn beside it",
     ] = ""
     x_column: Annotated[str, "column of the CSV file with the position in m"] = "x"
     level_column: Annotated[str, "column with the level, up positive"] = ""
@@ -117,6 +128,12 @@ class Irregularity(Parameters):
         """
         if self.spectrum == "smooth":
             return SmoothRail()
+        if self.spectrum == "sinusoid":
+            return HarmonicProfile(
+                np.array([self.amplitude]),
+                np.array([2.0 * np.pi / self.wavelength]),
+                np.array([self.phase]),
+            )
         if self.spectrum == "measured":
             return self.measured(self.wavelengths, required)
         which: Literal["vertical", "transverse"] = "vertical" if direction == "Z" else "transverse"

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from contactstudy.exceptions import InputError
 from contactstudy.irregularity import RepeatWarning, SmoothRail, paper_spectrum
 from contactstudy.study.kinds.passage.reading import parse_study
 from contactstudy.study.kinds.passage.roughness import describe, irregularity_of
@@ -38,6 +39,19 @@ def test_a_smooth_run_and_a_smooth_study():
     assert isinstance(irregularity_of(smooth), SmoothRail)
     info = describe(smooth).info
     assert info.spectrum is None and info.estimate is None and info.profile is None
+
+
+def test_a_sinusoid_is_its_cosine_and_has_no_spectrum():
+    table = {"wavelength": "50 mm", "amplitude": "20 um", "phase": 0.3, "spectrum": "sinusoid"}
+    described, x = describe(parse_study("demo", {"irregularity": table})), np.linspace(6, 7, 99)
+    np.testing.assert_allclose(
+        described.profile(x), 20e-6 * np.cos(2 * np.pi * x / 0.05 + 0.3), atol=1e-16
+    )
+    info = described.info
+    assert info.spectrum is None and info.estimate is None
+    assert np.ptp(info.profile.level) > 1.99 * 20e-6 and info.profile.label == "sinusoid, 50 mm"
+    with pytest.raises(InputError, match="wavelength: applies only with spectrum"):
+        parse_study("bad", {"irregularity": {"wavelength": "50 mm"}})
 
 
 def test_lateral_runs_get_the_independent_transverse_profile():

@@ -44,9 +44,10 @@ class Described:
         """What Fig. 1 shows."""
         table = self.study.irregularity
         smooth = table.spectrum == "smooth"
+        formula = table.generated or table.spectrum == "measured"
         measured, level = _measured_info(table, *self.measured) if self.measured else (None, None)
         return IrregularityInfo(
-            spectrum=None if smooth else _curve(table),
+            spectrum=_curve(table) if formula else None,
             estimate=_estimate(table, self.profile) if table.generated else None,
             profile=None if smooth else _sampled(self.study, self.profile),
             measured=measured,
@@ -120,11 +121,13 @@ def _estimate(table: irr.Irregularity, profile: irr.Profile) -> SpectrumCurve:
 def _sampled(study: Study, profile: irr.Profile) -> Level:
     low, high = profile.domain
     start, end = max(low, 0.0), min(high, study.track.length)
-    position = np.linspace(start, end, max(2, round((end - start) / PROFILE_STEP) + 1))
-    table = study.irregularity
-    label = "measured profile"
-    if table.spectrum != "measured":
+    table, step, label = study.irregularity, PROFILE_STEP, "measured profile"
+    if table.spectrum == "sinusoid":
+        step = min(step, table.wavelength / 20)
+        label = f"sinusoid, {1e3 * table.wavelength:.4g} mm"
+    elif table.spectrum != "measured":
         label = f"{table.spectrum.replace('_', ' ')}, seed {table.seed}"
+    position = np.linspace(start, end, max(2, round((end - start) / step) + 1))
     return Level(label, position, profile(position))
 
 
