@@ -153,6 +153,8 @@ def _profile_caption(profile: Level, travelled: tuple[float, float] | None) -> s
         f"{number(r.min())} to {number(r.max())} mm, "
         f"root mean square {number(float(np.std(r)))} mm."
     )
+    if profile.deviations:
+        text += f" Standard deviation in the bands of EN 13848: {profile.deviations}."
     if travelled is not None:
         text += (
             f" The shaded stretch from {exact(travelled[0])} to {exact(travelled[1])} m is "

@@ -3,6 +3,7 @@
 ``r(X) > 0`` raises the running surface; X in m along the rail.
 """
 
+from contactstudy.irregularity.bands import band_deviations
 from contactstudy.irregularity.chosen import Irregularity
 from contactstudy.irregularity.estimate import (
     nominal_centre,
@@ -30,6 +31,7 @@ __all__ = [
     "Profile",
     "RepeatWarning",
     "SmoothRail",
+    "band_deviations",
     "check_repeat",
     "faded",
     "fra",

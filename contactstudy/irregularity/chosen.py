@@ -14,11 +14,13 @@ from contactstudy.irregularity.spectra import NAMES, paper_spectrum, spectrum
 from contactstudy.validation import (
     Above,
     AtLeast,
+    By,
     File,
     Naming,
     Parameters,
     Unit,
     When,
+    by,
     complaint,
 )
 from contactstudy.validation import quantities as q
@@ -45,6 +47,12 @@ class Irregularity(Parameters):
         ],
         "formula that the profile is generated from, or a sinusoid, a measured or a smooth one",
     ] = "paper"  # fmt: skip
+    sides: Annotated[
+        Literal["one", "two"],
+        By("spectrum", **{name: spectrum(name).convention.sides for name in NAMES}),
+        _GENERATED,
+        "how the formula is read: its variance is the integral over one or both signs",
+    ] = by()
     roughness: Annotated[
         float, Unit("m^2*rad/m"), Above(0), _PAPER, "A_r of eq. (3)"
     ] = 0.8e-7  # fmt: skip
@@ -114,9 +122,11 @@ class Irregularity(Parameters):
 
     def formula(self) -> Spectrum:
         """The spectrum that is generated from; Table 1's where nothing is generated."""
-        if self.spectrum == "paper":
-            return paper_spectrum(self.roughness, self.omega_1, self.omega_2)
-        return spectrum(self.spectrum) if self.generated else paper_spectrum()
+        if not self.generated:
+            return paper_spectrum()
+        paper = self.roughness, self.omega_1, self.omega_2
+        found = paper_spectrum(*paper) if self.spectrum == "paper" else spectrum(self.spectrum)
+        return found.read(self.sides)
 
     def profile(
         self, direction: Literal["Z", "Y"] = "Z", required: tuple[float, float] | None = None

@@ -5,9 +5,11 @@ in m^2/(rad/m): the variance in a band is 2 int G d omega. What its source print
 sides, rad/m or 1/m, mm^2 or m^2) is declared in ``convention`` and converted there, once.
 """
 
+from __future__ import annotations
+
 import itertools
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -78,6 +80,10 @@ class Spectrum:
     def __call__(self, omega: ArrayLike) -> Array:
         """Two-sided density [m^2/(rad/m)] at angular wavenumbers omega > 0 [rad/m]."""
         return self.density(omega, TWO_SIDED)
+
+    def read(self, sides: Sides) -> Spectrum:
+        """The same formula read as one- or two-sided."""
+        return replace(self, convention=replace(self.convention, sides=sides))
 
     def density(self, wavenumber: ArrayLike, convention: Convention) -> Array:
         """Density at ``wavenumber``, both in the wanted convention.

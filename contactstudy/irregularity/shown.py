@@ -27,11 +27,15 @@ class SpectrumCurve:
 
 @dataclass(frozen=True)
 class Level:
-    """A profile over position: ``position`` (n,) in m and ``level`` (n,) in m, up positive."""
+    """A profile over position: ``position`` (n,) in m and ``level`` (n,) in m, up positive.
+
+    `deviations` says its standard deviation in the bands of EN 13848 where it is generated.
+    """
 
     label: str
     position: Array
     level: Array
+    deviations: str = ""
 
 
 @dataclass(frozen=True)
@@ -79,7 +83,10 @@ def to_dataset(info: IrregularityInfo) -> xr.Dataset:
         if level is not None:
             x = f"{key}_position"
             data[x] = (x, level.position, {"units": "m"})
-            data[key] = (x, level.level, {"units": "m", "long_name": level.label})
+            attrs = {"units": "m", "long_name": level.label}
+            if level.deviations:
+                attrs["standard_deviation"] = level.deviations
+            data[key] = (x, level.level, attrs)
     return data
 
 
@@ -94,6 +101,7 @@ def from_dataset(data: xr.Dataset) -> IrregularityInfo:
             parts[key] = SpectrumCurve(density.attrs["long_name"], wavenumber, density.values, band)
     for key in _LEVELS:
         if key in data:
-            label, position = data[key].attrs["long_name"], data[f"{key}_position"].values
-            parts[key] = Level(label, position, data[key].values)
+            attrs, position = data[key].attrs, data[f"{key}_position"].values
+            deviations = attrs.get("standard_deviation", "")
+            parts[key] = Level(attrs["long_name"], position, data[key].values, deviations)
     return IrregularityInfo(**parts)

@@ -39,7 +39,7 @@ _GERMAN = {"vertical": (4.032e-7, 1.08e-6), "lateral": (2.119e-7, 6.125e-7)}
 def german(
     level: Literal["low", "high"] = "low",
     direction: Literal["vertical", "lateral"] = "vertical",
-    sides: Sides = "two",
+    sides: Sides = "one",
 ) -> Spectrum:
     """German spectra of low and high disturbance (ERRI B176; Claus and Schiehlen 1998).
 
@@ -50,17 +50,16 @@ def german(
     direction
         Longitudinal level or alignment.
     sides
-        How the formula is read; two-sided is this program's convention, one-sided halves the
-        density.
+        How the formula is read; two-sided doubles the variance.
 
     Notes
     -----
-    ERRI B176 is not public and papers that print the formula mostly do not say how it is meant.
-    Open programs integrate it over positive wavenumbers alone, that is, read it one-sided: ORVD
-    (its documentation "Track-irregularity spectra", which quotes SIMPACK's library with these very
-    coefficients, ``A w_c^2`` = 2.741619e-7 and 7.343623e-7 m^2 (rad/m)^3 vertically) and TTB-2D
-    (D. Cantero, SoftwareX 20 (2022) 101253). Their profiles have half the variance of the default
-    here; ``sides="one"`` gives theirs.
+    ERRI B176 is not public, and papers that print the formula mostly do not say how it is meant.
+    One-sided in rad/m is the practice of open programs, which integrate it over positive
+    wavenumbers alone: ORVD (its documentation "Track-irregularity spectra", which quotes SIMPACK's
+    library with these very coefficients, ``A w_c^2`` = 2.741619e-7 and 7.343623e-7 m^2 (rad/m)^3
+    vertically) and TTB-2D (D. Cantero, SoftwareX 20 (2022) 101253). Low disturbance then has a
+    standard deviation of 0.98 mm from 3 to 25 m.
     """
     _one_of("german", "level", level, ("low", "high"))
     _one_of("german", "direction", direction, tuple(_GERMAN))
@@ -79,16 +78,17 @@ def german(
 _FRA = (1.2107, 1.0181, 0.6816, 0.5376, 0.2095, 0.0339)
 
 
-def fra(track_class: int = 6, sides: Sides = "two") -> Spectrum:
+def fra(track_class: int = 6, sides: Sides = "one") -> Spectrum:
     """Vertical spectrum of the Federal Railroad Administration's track classes 1 to 6.
 
     Class 1 is the worst; ``sides`` as in `german`.
 
     Notes
     -----
-    Open programs differ: TTB-2D and ORVD (see `german`) read ``0.25 A_v w_c^2/(w^2 (w^2 + w_c^2))``
-    one-sided; the documentation of STEM ("Irregularities model", after Zhang et al. 2001) has 2 pi
-    in place of 0.25 and amplitudes ``sqrt(4 S dw)``, which is two-sided.
+    TTB-2D and ORVD (see `german`) read ``0.25 A_v w_c^2/(w^2 (w^2 + w_c^2))`` one-sided, and so
+    does this program: class 6 has a standard deviation of 1.43 mm from 3 to 25 m. The documentation
+    of STEM ("Irregularities model", after Zhang et al. 2001) has 2 pi in place of 0.25 and
+    amplitudes ``sqrt(4 S dw)``, which is two-sided.
     """
     _one_of("fra", "track_class", track_class, tuple(range(1, 7)))
     _one_of("fra", "sides", sides, ("two", "one"))

@@ -8,6 +8,7 @@ import pytest
 from scipy.integrate import quad
 
 from contactstudy.irregularity import (
+    band_deviations,
     measured_profile,
     sample_profile,
     spectral_estimate,
@@ -100,10 +101,40 @@ def test_german_variance_in_closed_form():
     def primitive(w):
         return (np.arctan(w / r) / r - np.arctan(w / c) / c) / (c**2 - r**2)
 
-    exact = 2 * a * c**2 * (primitive(20.0) - primitive(0.08))
+    exact = a * c**2 * (primitive(20.0) - primitive(0.08))  # one-sided
     computed = spectrum("german_low").variance(0.08, 20.0)
     print(f"German low: closed form {exact * 1e6:.6f} mm2, computed {computed * 1e6:.6f} mm2")
     assert computed == pytest.approx(exact, rel=1e-9)
+
+
+@pytest.mark.parametrize(("name", "published"), [("german_low", 0.98), ("fra6", 1.43)])
+def test_standard_deviation_of_german_and_fra_spectra_from_3_to_25_m(name, published):
+    """What these spectra give where they are read one-sided, as open programs do (D1)."""
+    by_integral = 1e3 * np.sqrt(spectrum(name).variance(2 * np.pi / 25, 2 * np.pi / 3))
+    profile = sample_profile(spectrum(name), 3, n_terms=8000)
+    x = np.arange(0.0, 4 * profile.repeat_length, 0.2)
+    wave = np.fft.rfft(profile(x) * np.hanning(len(x))) / np.sqrt(np.mean(np.hanning(len(x)) ** 2))
+    k = np.fft.rfftfreq(len(x), 0.2)
+    kept = (k > 1 / 25) & (k <= 1 / 3)
+    of_samples = 1e3 * np.sqrt(2 * np.sum(np.abs(wave[kept]) ** 2)) / len(x)
+    default = sample_profile(spectrum(name), 3)
+    told = {b.band: 1e3 * b.deviation for b in band_deviations(default, (0.08, 20.0))}
+    print(f"{name}: {published} mm; integral {by_integral:.3f}, profile {of_samples:.3f}, "
+          f"told {told['D1']:.3f} mm")  # fmt: skip
+    assert by_integral == pytest.approx(published, abs=0.01)
+    assert of_samples == pytest.approx(published, rel=0.02)
+    assert told["D1"] == pytest.approx(of_samples, rel=0.01)
+
+
+def test_bands_that_a_profile_covers_in_part():
+    found = band_deviations(sample_profile(PAPER, 1), (0.08, 20.0))
+    assert [b.band for b in found] == ["D0", "D1", "D2", "D3"]
+    assert (found[-1].shortest, found[-1].longest) == (70.0, pytest.approx(2 * np.pi / 0.08))
+    assert str(found[-1]).startswith("part of D3 (70 to 78.5 m)")
+    # known of Table 1: RMS 0.55 mm below 20 m
+    assert 0.55 < 1e3 * np.hypot(found[0].deviation, found[1].deviation) < 0.75
+    short = sample_profile(PAPER, 1, band=(3.0, 20.0))
+    assert [b.band for b in band_deviations(short, (3.0, 20.0))] == ["D0"]
 
 
 def test_welch_estimate_lies_on_the_two_sided_spectrum():

@@ -10,9 +10,11 @@ def test_printed_formulas_at_single_points():
     w = 0.7
     assert spectrum("paper")(w) == pytest.approx(0.8e-7 / (w**2 * (w**2 + 1.0)))
     assert german("high")(w) == pytest.approx(
-        1.08e-6 * 0.8246**2 / ((w**2 + 0.0206**2) * (w**2 + 0.8246**2))
+        0.5 * 1.08e-6 * 0.8246**2 / ((w**2 + 0.0206**2) * (w**2 + 0.8246**2))
     )
-    assert fra(4)(w) == pytest.approx(0.25 * 0.5376e-4 * 0.8245**2 / (w**2 * (w**2 + 0.8245**2)))
+    assert fra(4)(w) == pytest.approx(
+        0.5 * 0.25 * 0.5376e-4 * 0.8245**2 / (w**2 * (w**2 + 0.8245**2))
+    )
     # printed one-sided in mm^2/(1/m) over f = omega/2 pi
     printed = Convention("one", "1/m", 1e-6)
     assert tbt3352().density(0.1, printed) == pytest.approx(1.9784e-2 / 0.1**1.3643)
@@ -31,9 +33,10 @@ def test_conventions_hold_the_same_variance():
     assert Convention("one", "1/m", 1e-6).unit == "mm^2/(1/m)"
 
 
-def test_one_sided_reading_halves_the_density():
-    assert german("low", sides="one")(1.0) == pytest.approx(0.5 * german("low")(1.0))
-    assert spectrum("fra6", sides="one")(1.0) == pytest.approx(0.5 * fra(6)(1.0))
+def test_two_sided_reading_doubles_the_density():
+    assert german("low", sides="two")(1.0) == pytest.approx(2.0 * german("low")(1.0))
+    assert spectrum("fra6", sides="two")(1.0) == pytest.approx(2.0 * fra(6)(1.0))
+    assert spectrum("paper").read("one")(1.0) == pytest.approx(0.5 * spectrum("paper")(1.0))
     assert german("low", "lateral")(1.0) / german("low")(1.0) == pytest.approx(2.119 / 4.032)
 
 

@@ -5,9 +5,13 @@ import pytest
 
 from contactstudy.exceptions import InputError
 from contactstudy.irregularity import RepeatWarning, SmoothRail, paper_spectrum
+from contactstudy.irregularity.shown import from_dataset, to_dataset
+from contactstudy.reporter import Quiet
+from contactstudy.study.kinds.passage.forecast import needs
 from contactstudy.study.kinds.passage.reading import parse_study
 from contactstudy.study.kinds.passage.roughness import describe, irregularity_of
 
+SMOOTH = {"irregularity": {"spectrum": "smooth"}}
 LONG = {"track": {"length": "480 m"}, "journey": {"to": "400 m"}}
 
 
@@ -64,3 +68,29 @@ def test_lateral_runs_get_the_independent_transverse_profile():
 def test_other_spectra_by_name(name):
     info = describe(parse_study("demo", {"irregularity": {"spectrum": name}})).info
     assert info.spectrum.label != "eq. (3), Table 1" and info.estimate is not None
+
+
+@pytest.mark.parametrize(
+    ("spectrum", "default"), [("paper", "two"), ("german_low", "one"), ("tbt3352", "one")]
+)
+def test_sides_are_the_spectrums_own_unless_they_are_given(spectrum, default):
+    own = parse_study("demo", {"irregularity": {"spectrum": spectrum}}).irregularity
+    assert own.resolved()["sides"] == own.sides == default
+    other = {"one": "two", "two": "one"}[default]
+    given = parse_study("demo", {"irregularity": {"spectrum": spectrum, "sides": other}})
+    x = np.linspace(0.0, 30.0, 100)
+    ratio = np.sqrt(2.0) if other == "two" else np.sqrt(0.5)
+    assert given.irregularity.profile()(x) == pytest.approx(ratio * own.profile()(x))
+    assert "sides" not in parse_study("demo", SMOOTH).irregularity.resolved()
+    with pytest.raises(InputError, match="sides: applies only with spectrum"):
+        parse_study("demo", {"irregularity": {"spectrum": "smooth", "sides": "one"}})
+
+
+def test_check_and_results_say_the_standard_deviation_by_band():
+    study = parse_study("demo", {})
+    assert "D1 (3 to 25 m)" in describe(study).info.profile.deviations
+    assert from_dataset(to_dataset(describe(study).info)).profile.deviations
+    assert any(
+        "D1 (3 to 25 m)" in line for line in needs(study, (), Quiet()) if isinstance(line, str)
+    )
+    assert describe(parse_study("demo", SMOOTH)).info.profile is None

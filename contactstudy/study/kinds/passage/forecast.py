@@ -12,6 +12,7 @@ from contactstudy.exceptions import InputError
 from contactstudy.reporter import Reporter
 from contactstudy.solids.cache import is_cached
 from contactstudy.study.kinds.passage import build, contact
+from contactstudy.study.kinds.passage.roughness import deviations, irregularity_of
 from contactstudy.study.kinds.passage.runs import PointRun
 from contactstudy.study.kinds.passage.schema import Study
 from contactstudy.study.kinds.passage.twins import untwinned
@@ -85,6 +86,8 @@ def needs(study: Study, companions: Sequence[Any], reporter: Reporter) -> list[s
     """
     studies = [study, *(c for c in companions if isinstance(c, Study))]
     found: list[str | Table] = [_contact(study)] if study.runs else []
+    if told := deviations(study.irregularity, irregularity_of(study)):
+        found.append(f"standard deviation of the irregularity: {told}")
     sizes, times = Table("run", "dofs", "steps", "expected time (s)"), [0.0]
     for one in studies:
         for name in one.runs:

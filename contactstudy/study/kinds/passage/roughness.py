@@ -128,7 +128,14 @@ def _sampled(study: Study, profile: irr.Profile) -> Level:
     elif table.spectrum != "measured":
         label = f"{table.spectrum.replace('_', ' ')}, seed {table.seed}"
     position = np.linspace(start, end, max(2, round((end - start) / step) + 1))
-    return Level(label, position, profile(position))
+    return Level(label, position, profile(position), deviations(table, profile))
+
+
+def deviations(table: irr.Irregularity, profile: irr.Profile) -> str:
+    """Standard deviation of a generated profile in the bands of EN 13848, "" for any other."""
+    if not (table.generated and isinstance(profile, irr.HarmonicProfile)):
+        return ""
+    return ", ".join(map(str, irr.band_deviations(profile, table.band)))
 
 
 def _measured_info(
