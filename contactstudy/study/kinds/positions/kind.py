@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-from contactstudy.study.kind import Inputs, Kind, later
+from contactstudy.study.kind import Inputs, Kind, Quantity, later
 from contactstudy.study.kinds.positions.table import Positions, PositionsStudy
 
 _HERE = "contactstudy.study.kinds.positions"
@@ -16,6 +16,12 @@ class PositionsKind(Kind):
 
     name = "positions"
     computing = f"{_HERE}.press:press_one"
+    measuring = f"{_HERE}.results:measure"
+    shown: ClassVar = (
+        Quantity("peak_pressure_largest", "Highest peak pressure (MPa)", factor=1e-6),
+        Quantity("approach_largest", "Largest approach (µm)", factor=1e6),
+        Quantity("area_largest", "Largest contact area of a patch (mm²)", factor=1e6),
+    )
     files = (CSV_FILE,)
     about = "A wheelset pressed on its rails at given positions, both as half-spaces."
     form = None

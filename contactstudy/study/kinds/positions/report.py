@@ -30,8 +30,8 @@ _METHOD = (
 
 
 def drawings(results: StudyResults) -> list[Drawing]:
-    """A figure a variable, with the curves of all wheels."""
-    plots = {name: _plot(results, name) for name in _DRAWN}
+    """A figure a variable, with the curves of all wheels; none of a study with axes."""
+    plots = {name: _plot(results, name) for name in _DRAWN if results.runs}
     return [
         Drawing(f"positions_{name}", plot.caption, partial(draw, plot))
         for name, plot in plots.items()
@@ -44,9 +44,10 @@ def report(results: StudyResults, timings: bool = False) -> Report:
         {"title": f"{side.capitalize()} wheel", "blocks": [_patches(results, side)]}
         for side in results.runs
     ]
-    figures = [figure(made.name, made.caption) for made in drawings(results)]
-    parts.append({"title": "Over the lateral shift", "blocks": figures})
-    return Report(abstract=[_abstract(results)], subject=[text(_METHOD)], parts=parts)
+    if figures := [figure(made.name, made.caption) for made in drawings(results)]:
+        parts.append({"title": "Over the lateral shift", "blocks": figures})
+    abstract = [_abstract(results)] if results.runs else []
+    return Report(abstract, parts, subject=[text(_METHOD)])
 
 
 def _abstract(results: StudyResults) -> str:

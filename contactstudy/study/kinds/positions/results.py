@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from contactstudy.files import writing
+from contactstudy.study.axes.measured import Measured, extremes
 from contactstudy.study.kind import Cost
 from contactstudy.study.kinds.positions.kind import CSV_FILE
 from contactstudy.study.kinds.positions.press import VARIABLES
@@ -41,6 +42,11 @@ def _dataset(rows: list[dict[str, Any]]) -> xr.Dataset:
         attrs = {"units": unit, "long_name": meaning}
         data[name] = ("row", np.array([float(row[name]) for row in rows]), attrs)
     return data
+
+
+def measure(study: PositionsStudy, found: Mapping[str, list[dict[str, Any]]]) -> Measured:
+    """Smallest and largest value of each variable among all patches of each wheel."""
+    return extremes(study, collect(study, found))
 
 
 def metrics(
