@@ -90,7 +90,8 @@ def parts(results: StudyResults) -> list[Part]:
         blocks: list[Block] = [figure(d.name, d.caption) for d in own]
         for one in found:
             if one.design == name and one.rows:
-                columns = [capital(c) for c in one.columns]
+                names = [label(run) for run in data["run"].values] if "run" in data else []
+                columns = [c if c in names else capital(c) for c in one.columns]
                 rows = [list(row) for row in one.rows]
                 blocks.append(table(columns, rows, f"{one.title}.", one.left) | {"size": 8})
         if failed := _failures(results, name):

@@ -9,6 +9,7 @@ import subprocess
 import numpy as np
 import pytest
 
+import contactstudy as cs
 from contactstudy import cli
 from contactstudy.driver import run_study
 from contactstudy.exceptions import InputError, NumericalError
@@ -173,7 +174,7 @@ def test_a_press_that_breaks_down_says_where(study, tmp_path, monkeypatch):
     monkeypatch.setattr(type(POSITIONS), "computing", "breaking_press:press_one")
     with pytest.raises(NumericalError, match=r"^right wheel at 1 mm and 0 mrad: does not settle"):
         run_study(load_study(study), tmp_path / "out")
-    assert len(list((tmp_path / "out" / "runs").glob("*.json"))) == 1  # the first is kept
+    assert len(list((tmp_path / "out" / "runs").glob("right_*.json"))) == 1  # the first is kept
 
 
 def test_impossible_positions_are_all_found_before_any_is_pressed(tmp_path, capsys):
@@ -193,7 +194,7 @@ def test_impossible_positions_are_all_found_before_any_is_pressed(tmp_path, caps
     ):
         lines = [x for x in told[0].splitlines() if f"positions.lateral = {where}: " in x]
         assert len(lines) == 1 and what in lines[0]
-    assert not list((out / "runs").glob("*.json"))
+    assert not list((out / "runs").glob("right_*.json"))
 
 
 def test_no_roll_at_rest_is_found_by_the_check(tmp_path):
@@ -219,3 +220,16 @@ def test_commands(study, tmp_path, capsys):
     assert "positions.lod: unknown key" in capsys.readouterr().err
     assert cli.main(["studies"]) == 0
     assert "manchester " in capsys.readouterr().out
+
+
+def test_positions_over_loads_follow_hertz(study, tmp_path):
+    """Peak pressure over the load as F^(1/3), approach as F^(2/3); figures and report are there."""
+    loads = [2e4, 1.6e5]
+    data = cs.sweep(study, {"positions.load": loads}, out=tmp_path / "out", jobs=1)
+    for name, power in (("peak_pressure", 1 / 3), ("approach", 2 / 3)):
+        found = data[f"{name}_largest"]
+        assert found.dims == ("positions.load", "run")
+        assert found[1] / found[0] == pytest.approx(8**power, rel=0.02)
+    figures = {path.stem for path in (tmp_path / "out/figures").glob("*.pdf")}
+    assert "sweep_peak_pressure_largest" in figures
+    assert (tmp_path / "out/report.pdf").is_file()
