@@ -22,10 +22,10 @@ def writing(path: Path) -> Iterator[Path]:
 
     Its directory is made when absent; `InputError` when it cannot be made or written.
     """
-    ensure_writable(path.parent)
-    handle, name = tempfile.mkstemp(
-        dir=path.parent, prefix=f"{_UNFINISHED}{path.stem}-", suffix=path.suffix
-    )
+    with _said_of(path.parent):
+        path.parent.mkdir(parents=True, exist_ok=True)
+        prefix = f"{_UNFINISHED}{path.stem}-"
+        handle, name = tempfile.mkstemp(dir=path.parent, prefix=prefix, suffix=path.suffix)
     os.close(handle)
     temporary = Path(name)
     try:
@@ -51,10 +51,16 @@ def remove_unfinished(directory: Path, stem: str = "", older_than: float = 0.0) 
 
 def ensure_writable(directory: Path) -> None:
     """Make `directory` and try to write in it; `InputError` says why when that fails."""
-    try:
+    with _said_of(directory):
         directory.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=directory):
             pass
+
+
+@contextlib.contextmanager
+def _said_of(directory: Path) -> Iterator[None]:
+    try:
+        yield
     except OSError as error:
         reason = error.strerror or str(error)
         raise InputError(

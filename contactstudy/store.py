@@ -7,6 +7,7 @@ itself. The content is put in place last, so an entry that is there is finished.
 
 from __future__ import annotations
 
+import functools
 import hashlib
 import json
 import re
@@ -129,7 +130,7 @@ class Store:
 
     def save(self, name: str, key: str, value: Any, about: Mapping[str, Any] | None = None) -> Path:
         """Write an entry; `InputError` when the folder cannot be made or written."""
-        remove_unfinished(self.folder, older_than=_ABANDONED)
+        _tidy(self.folder)
         path, slip = self.path(name, key), dict[str, Any](about=dict(about or {}))
         if self.form is None:
             with writing(path) as temporary:
@@ -159,6 +160,12 @@ class Store:
         for path in self.files():
             path.unlink(missing_ok=True)
         remove_unfinished(self.folder)
+
+
+@functools.cache
+def _tidy(folder: Path) -> None:
+    """Remove what killed writers left long ago; once, as looking through a folder takes time."""
+    remove_unfinished(folder, older_than=_ABANDONED)
 
 
 def digest(value: Any, length: int = 16) -> str:

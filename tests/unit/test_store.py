@@ -138,6 +138,12 @@ def test_what_a_killed_writer_leaves_is_removed(tmp_path):
     assert left.exists()  # perhaps someone is still writing it
     os.utime(left, (0, 0))
     store.save("other", "0" * 16, 1)
+    assert left.exists()  # a process looks once
+    script_of_another = (
+        "import sys; from contactstudy.store import Store; from pathlib import Path\n"
+    )
+    script_of_another += "Store(Path(sys.argv[1])).save('other', '0' * 16, 1)"
+    subprocess.run([sys.executable, "-c", script_of_another, str(tmp_path)], check=True)
     assert not left.exists()
     subprocess.run([sys.executable, "-c", script, str(tmp_path / "one-01.nc")], check=False)
     remove_unfinished(tmp_path, "two")
