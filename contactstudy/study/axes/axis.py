@@ -52,7 +52,7 @@ def axis_of(data: xr.Dataset, dim: str) -> AxisOf:
     unit, factor = _shown(attrs["units"], np.asarray(values, dtype=float))
     told = f"times the {of}" if (of := attrs.get("factor_of")) else pretty_unit(unit)
     at = np.array([float(f"{v:.12g}") for v in np.asarray(values, dtype=float) * factor])
-    names = tuple(f"{exact(v)} {told}".strip() for v in at)
+    names = tuple(f"{exact(v, 4)} {told}".strip() for v in at)
     return AxisOf(f"{title} ({told})" if told else title, at, names)
 
 
@@ -68,7 +68,7 @@ def _shown(unit: str, values: Array) -> tuple[str, float]:
     if unit == "m/s":
         return "km/h", 3.6
     if unit == "m" and largest < 0.5:
-        return "mm", 1e3
+        return ("mm", 1e3) if largest >= 1e-3 else ("µm", 1e6)
     if unit == "s" and largest < 0.5:
         return "µs", 1e6
     for factor, prefix in ((1e-9, "G"), (1e-6, "M"), (1e-3, "k")):
