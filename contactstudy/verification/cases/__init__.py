@@ -23,6 +23,7 @@ CASES: tuple[Case, ...] = (
     _case("manchester", "manchester_case:manchester", slow=True),
     _case("s1002_solid", "s1002:solid_press", slow=True),
     _case("patch_filter", "patch_filter:patch_filter", slow=True),
+    _case("short_waves", "short_waves:short_waves", slow=True),
     _case("convergence", "surface_convergence:defaults", slow=True),
     _case("convergence_mesh", "surface_convergence:mesh", slow=True),
     _case("convergence_penalty", "surface_convergence:penalty", slow=True),
