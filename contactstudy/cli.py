@@ -233,14 +233,15 @@ def studies() -> None:
 @app.command
 def keys() -> None:
     """Print every key of study files with unit, default, limits and meaning, in Markdown."""
-    from contactstudy.study.keys import key_reference
+    from contactstudy.study.keys import AXES, key_reference
     from contactstudy.study.kind import KINDS, find_kind
 
     for name in KINDS:
         kind = find_kind(name)
         inner = {f"{group}.NAME": table for group, table in kind.inner_tables.items()}
         print(f"# {name.capitalize()}\n\n{kind.about}\n")
-        print(key_reference({**kind.tables, **inner}))
+        print(key_reference({**kind.tables, **inner}, kind.study))
+    print(AXES, end="")
 
 
 @app.command

@@ -7,12 +7,45 @@ from collections.abc import Mapping, Sequence
 from dataclasses import MISSING
 from typing import Any, Literal, get_origin
 
-from contactstudy.validation import Entry, Parameter, Table, entries
+from contactstudy.validation import Entry, Parameter, Parameters, Table, entries
+
+AXES = """\
+# Any kind
+
+## [sweep]
+
+`"TABLE.KEY" = VALUES` varies a key; all combinations are computed. VALUES are a list, `"1 to 50"`,
+`"0 m to 7 m by 0.5 m"` (steps), `"20 mm to 3 m by 14, logarithmic"` or `"..., linear"` (number of
+values), or `"2 to 32 x 2"` (factors).
+
+| key | unit | default | allowed | meaning |
+|---|---|---|---|---|
+| `combine` |  | "grid" | "grid" or "zip" or "sobol" or "latin_hypercube" | all combinations, \
+value by value, or a sample, whose VALUES may be `"uniform 1 m to 2 m"`, `"log-uniform ..."` or \
+`"normal 65 MN/m, 5 MN/m"` |
+| `samples` |  | 64 | a whole number at least 2 | size of a sample; a power of 2 with "sobol" |
+| `seed` |  | 1 | a whole number at least 0 | of a sample |
+| `keep` |  | [] | a list of texts | histories that are kept whole of every variant |
+
+## [refine]
+
+`"TABLE.KEY" = VALUES`, three or more numbers from coarse to fine, each key by itself, and crossed
+with the keys of `[sweep]`; gives observed order, limit, grid convergence index and a verdict.
+`expected = { "TABLE.KEY" = 2 }` states the order of the scheme.
+
+## [quick]
+
+`"TABLE.KEY" = VALUE` takes its place with `--quick`, of a varied key its series.
+"""
 
 
-def key_reference(tables: Mapping[str, Table]) -> str:
-    """Markdown table of the keys of each table, by its name in a file: "track", "runs.NAME"."""
-    return "\n\n".join(_section(name, table) for name, table in tables.items()) + "\n"
+def key_reference(tables: Mapping[str, Table], study: type[Parameters] | None = None) -> str:
+    """Markdown table of the keys of each table, by its name in a file: "track", "runs.NAME".
+
+    First come those of the `study`, which stand above the tables.
+    """
+    above = [] if study is None else [_section("", study)]
+    return "\n\n".join([*above, *(_section(name, table) for name, table in tables.items())]) + "\n"
 
 
 def _section(name: str, table: Table) -> str:
@@ -22,8 +55,8 @@ def _section(name: str, table: Table) -> str:
         "|---|---|---|---|---|",
         *(_row(key, entry, known) for key, entry in known.items()),
     ]
-    about = "" if not isinstance(table, type) else _summary(table)
-    return "\n".join([f"## [{name}]", "", *about, *rows])
+    about = _summary(table) if name and isinstance(table, type) else ""
+    return "\n".join([f"## [{name}]" if name else "## Above the tables", "", *about, *rows])
 
 
 def _summary(owner: type) -> list[str]:
@@ -64,7 +97,7 @@ def allowed(p: Parameter) -> str:
         more = p.multiples.form if p.multiples else ""
         return " or ".join(part for part in (p.limits.description() + form, names, more) if part)
     of_names = get_origin(p.listed[0]) is Literal
-    each = names if of_names else p.limits.description()
+    each = names if of_names else "text" if p.listed[0] is str else p.limits.description()
     listed = f"{'a list' if p.listed[-1] is Ellipsis else 'two'}, each {each}"
     return f"{listed}, or {names}" if names and not of_names else listed
 

@@ -23,6 +23,7 @@ from contactstudy.reporter import Reporter
 from contactstudy.store import DATASET, Form
 from contactstudy.study.overrides import Overrides
 from contactstudy.study.results import StudyResults
+from contactstudy.study.study import Study
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -141,6 +142,8 @@ class Kind(ABC):
     files: ClassVar[Sequence[str]] = ()
     #: How what it returns is kept: a dataset, or plain data (small ones are quicker so) for None.
     form: ClassVar[Form | None] = DATASET
+    #: What its studies are.
+    study: ClassVar[type[Study]]
     #: Table of the study file -> its model: for reading, ``--set`` and the reference of keys.
     tables: ClassVar[Mapping[str, Any]]
     #: The same for tables in tables: "runs" for ``[runs.NAME]``.

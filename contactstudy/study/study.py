@@ -27,8 +27,7 @@ class Study(Parameters):
     title: Annotated[str, "one line; the name if left out"] = ""
     description: Annotated[str, "paragraphs"] = ""
     companions: Annotated[tuple[str, ...], "studies whose results stand in the same report"] = ()
-    #: Run that the others are compared with.
-    reference: str | None = None
+    reference: Annotated[str | None, Key(""), "run that the others are compared with"] = None
 
     def __post_init__(self) -> None:
         """Refuse what is no text; the title is the name if it is left out."""

@@ -254,7 +254,7 @@ def test_interrupt_leaves_whole_files_and_the_next_call_goes_on(short, tmp_path)
         start_new_session=True,
     )
     deadline = time.monotonic() + 60
-    while not list(out.glob("runs/quick-*.json")):
+    while not list(out.glob("runs/quick-*.npz")):
         assert process.poll() is None, process.communicate()
         assert time.monotonic() < deadline
         time.sleep(0.05)

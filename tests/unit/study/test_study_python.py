@@ -6,7 +6,9 @@ import pytest
 
 from contactstudy.exceptions import InputError
 from contactstudy.solvers.journey import Journey
-from contactstudy.study.keys import key_reference
+from contactstudy.study.axes.design import COMBINATIONS
+from contactstudy.study.axes.table import TABLES
+from contactstudy.study.keys import AXES, key_reference
 from contactstudy.study.kinds.passage.reading import parse_study
 from contactstudy.study.kinds.passage.runs import SOLVERS, PointRun, SurfaceRun
 from contactstudy.study.kinds.passage.schema import SECTIONS, Study
@@ -112,7 +114,7 @@ def test_runs_are_checked():
         ({"runs": None}, "runs: is a NoneType; must be of type dict"),
         ({"runs": [PointRun()]}, "runs: is a list; must be of type dict"),
         ({"runs": {3: PointRun()}}, r"runs\.3: a run's name is letters"),
-        ({"runs": {"p": PointRun()}, "reference": []}, r"compare\.reference = \[\]: must be a run"),
+        ({"runs": {"p": PointRun()}, "reference": []}, r"compare\.reference = \[\]: must be text"),
         ({"runs": None, "track": 3}, "track: is a int"),
         ({"name": 3}, "name = 3: must be text"),
         ({"title": 3}, "title = 3: must be text"),
@@ -163,7 +165,11 @@ def test_a_shipped_study_refined():
 
 def test_key_reference_has_every_key():
     tables = SECTIONS | {"runs.NAME": SOLVERS, "positions": Positions}
-    text = key_reference(tables)
+    text = key_reference(tables, Study)
+    for row in ("`companions` |  | [] | a list, each text |", "`compare.reference` |  |  | text |"):
+        assert row in text.partition("## [")[0]
+    for key in (*COMBINATIONS, "combine", "samples", "seed", "keep", "expected", *TABLES):
+        assert key in AXES
     for name, table in tables.items():
         assert f"## [{name}]" in text
         for key, entry in entries(table).items():
@@ -176,4 +182,7 @@ def test_key_reference_has_every_key():
     assert (
         "| `pad_stiffness` | N/m | 6.5e+07 | above 0 N/m | of a rail pad; only with support" in text
     )
-    assert "14 (half), 20 (whole)" in text and "not with spectrum = measured or smooth" in text
+    assert (
+        "14 (half), 20 (whole)" in text
+        and "not with spectrum = sinusoid or measured or smooth" in text
+    )

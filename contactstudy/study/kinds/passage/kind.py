@@ -6,7 +6,7 @@ from typing import ClassVar
 
 from contactstudy.study.kind import Kind, Quantity, later
 from contactstudy.study.kinds.passage.runs import SOLVERS
-from contactstudy.study.kinds.passage.schema import SECTIONS
+from contactstudy.study.kinds.passage.schema import SECTIONS, Study
 
 _HERE = "contactstudy.study.kinds.passage"
 _FORCE, _NAME = "contact_force", "contact force"
@@ -32,6 +32,7 @@ class PassageKind(Kind):
     )
     files = (FIELDS,)
     about = "Wheels run over a track, by several models that are compared."
+    study = Study
     tables = SECTIONS
     inner_tables: ClassVar = {"runs": SOLVERS}
     titles: ClassVar = {

@@ -61,6 +61,10 @@ class Study(study.Study):
     wheelset: WheelsetPosition = field(default_factory=WheelsetPosition)
     scan: ScanFiles = field(default_factory=ScanFiles)
     runs: dict[str, PointRun | SurfaceRun] = field(default_factory=dict)
+    reference: Annotated[
+        str | None, Key("compare.reference"),
+        "run that the others are compared with; the first of several if left out",
+    ] = None  # fmt: skip
     smooth: Annotated[
         bool, Key("compare.smooth"),
         "whether each run is also run on a smooth rail, for the part that the irregularity causes",

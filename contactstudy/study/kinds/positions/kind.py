@@ -25,6 +25,7 @@ class PositionsKind(Kind):
     files = (CSV_FILE,)
     about = "A wheelset pressed on its rails at given positions, both as half-spaces."
     form = None
+    study = PositionsStudy
     tables: ClassVar = {"positions": Positions}
     titles: ClassVar = {"positions": "Wheelset and positions"}
 

@@ -27,6 +27,7 @@ from contactstudy.validation import (
     AtLeast,
     AtMost,
     File,
+    Key,
     Naming,
     Same,
     Unit,
@@ -136,6 +137,7 @@ class PositionsStudy(Study):
 
     kind: ClassVar[str] = "positions"
 
+    companions: Annotated[tuple[str, ...], Key("")] = ()
     table: Positions = field(default_factory=Positions)
 
     @cached_property
