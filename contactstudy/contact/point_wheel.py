@@ -16,8 +16,7 @@ class PointWheel:
     """Elastic modes of a wheel as a contact at a point sees them.
 
     The static give of all other modes belongs to the contact law: of a law that comes from a press
-    of the meshed bodies, that of these modes has to be taken out
-    (`contactstudy.solvers.at_rest.geometry_table`).
+    of the meshed bodies, that of these modes has to be taken out (`PressTable.without`).
 
     Attributes
     ----------
@@ -39,6 +38,11 @@ class PointWheel:
         # an added force dF presses the point i with share_i dF / n_i along its normal
         shapes = (table.shares / contact.points.normal_z) @ tread @ contact.modes.shapes.T
         return cls(contact.modes, np.asarray(shapes), contact.wheel_damping)
+
+    @property
+    def give(self) -> float:
+        """How much the contact moves statically by these modes [m/N]."""
+        return float(self.shapes**2 @ (1.0 / self.modes.stiffness))
 
     def on(self, vehicle: Vehicle) -> Vehicle:
         """The vehicle with these modes, last among its dofs."""

@@ -6,7 +6,7 @@ table is a local straight line through ``approach / F^(2/3)`` over ``F^(1/3)``, 
 law is constant; the weights of the patch are smoothed in the same way.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -15,7 +15,7 @@ from contactstudy.arrays import Array
 from contactstudy.contact.augmented import Enforcement
 from contactstudy.contact.complementarity import PressedForces
 from contactstudy.contact.press import PRESS_LOADS, press_curve, press_stiffness
-from contactstudy.exceptions import InputError
+from contactstudy.exceptions import InputError, NumericalError
 from contactstudy.geometry.points import ContactPoints
 
 LARGEST = 3.0
@@ -23,6 +23,7 @@ LARGEST = 3.0
 _ROWS = 16
 _LOADS = 144
 _SMALLEST = 0.2, 0.3  # cube roots of the first load and of the first row's, over the static load's
+_LEAST = 1.1  # cube root of the load that a table must reach, in the same measure
 _WINDOW = 0.2  # half width of a local line, in the same measure
 
 
@@ -55,6 +56,16 @@ class PressTable:
     tangent: Array
     secant: Array
 
+    def without(self, give: float) -> "PressTable":
+        """The table of bodies that are stiffer by a linear give [m/N], as that of wheel modes."""
+        tangent, secant = (1.0 / (1.0 / k - give) for k in (self.tangent, self.secant))
+        return replace(
+            self,
+            approach=self.approach - give * self.force,
+            tangent=np.asarray(tangent),
+            secant=np.asarray(secant),
+        )
+
     def weights_at(self, load: float) -> Array:
         """Weights (p,) at a load [N] within the table."""
         return np.array([np.interp(load, self.force, column) for column in self.weights.T])
@@ -63,22 +74,39 @@ class PressTable:
 def press_table(
     points: ContactPoints, flexibility: Array, load: float, law: Enforcement, reference: Array
 ) -> PressTable:
-    """Press two bodies up to `LARGEST` times the static load [N]; arguments of `press_curve`."""
-    root = load ** (1 / 3) * np.linspace(_SMALLEST[0], LARGEST ** (1 / 3), _LOADS)
-    rows = load ** (1 / 3) * np.linspace(_SMALLEST[1], LARGEST ** (1 / 3), _ROWS)
+    """Press two bodies up to `LARGEST` times the static load [N]; arguments of `press_curve`.
+
+    It ends before that where the patch reaches the edge of the points.
+
+    Raises
+    ------
+    NumericalError
+        If it does so at the static load.
+    """
+    unit, width = load ** (1 / 3), _WINDOW * load ** (1 / 3)
+    root = unit * np.linspace(_SMALLEST[0], LARGEST ** (1 / 3), _LOADS)
     curve = press_curve(points, flexibility, root**3, law, reference)
+    edges = [points.edge_reached(solution.active) for solution in curve.solutions]
+    n = next((k for k, edge in enumerate(edges) if edge), len(root))
+    if n < len(root) and root[n] < _LEAST * unit:
+        key = "contact_half_width" if edges[n] == "across" else "contact_half_length"
+        raise NumericalError(
+            f"static press: the patch reaches the edge of the finely meshed zone {edges[n]} the "
+            f"rail at {1e-3 * root[n] ** 3:.4g} kN ({key} is too small)"
+        )
+    root, solutions = root[:n], curve.solutions[:n]
+    rows = np.linspace(_SMALLEST[1] * unit, root[-1], _ROWS)
     M = flexibility + np.diag(law.compliance(points.area))
-    shares = np.stack([load_weights(M, points.normal_z, s) for s in curve.solutions])
-    along = shares.reshape(len(root), len(points.x), -1).sum(axis=2)
-    width = _WINDOW * load ** (1 / 3)
+    shares = np.stack([load_weights(M, points.normal_z, s) for s in solutions])
+    along = shares.reshape(n, len(points.x), -1).sum(axis=2)
     smooth = _local_lines(root, rows, width)
     stiffness = press_curve(points, flexibility, load * PRESS_LOADS, law, reference)
     tangent, secant = press_stiffness(stiffness, load)
-    at_load = _local_lines(root, np.array([load ** (1 / 3)]), width)[0]
+    at_load = _local_lines(root, np.array([unit]), width)[0]
     return PressTable(
         recipe=None,
         force=rows**3,
-        approach=smooth @ (curve.approach / root**2) * rows**2,
+        approach=smooth @ (curve.approach[:n] / root**2) * rows**2,
         offsets=points.x,
         weights=smooth @ along,
         shares=at_load @ shares,

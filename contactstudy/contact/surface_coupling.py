@@ -225,12 +225,11 @@ class AttachedSurface:
     def _check_edge(self, step: int, active: BoolArray) -> None:
         """Raise if an outermost line of points is in contact, naming the key of the small zone."""
         points = self._coupling.wheel.points
-        grid = active.reshape(len(points.x), -1)
-        across = grid[:, -1].any() or (not points.symmetric and grid[:, 0].any())
-        if not (across or grid[0].any() or grid[-1].any()):
+        way = points.edge_reached(active)
+        if not way:
             return
-        lines, way = (points.wheel_y, "across") if across else (points.wheel_x, "along")
-        key = "contact_half_width" if across else "contact_half_length"
+        lines = points.wheel_y if way == "across" else points.wheel_x
+        key = "contact_half_width" if way == "across" else "contact_half_length"
         raise NumericalError(
             f"contact patch reaches the edge of the finely meshed zone {way} the rail at "
             f"{self._where(step)}: the wheel's zone, {1e3 * lines[0]:.4g} to "

@@ -71,6 +71,13 @@ class ContactPoints:
         """Y of every point, (nx*ny,) in m."""
         return np.tile(self.y, len(self.x))
 
+    def edge_reached(self, active: BoolArray) -> str:
+        """Way in which points in contact (n,) reach the edge: "along", "across" the rail or ""."""
+        grid = active.reshape(len(self.x), -1)
+        if grid[:, -1].any() or (not self.symmetric and grid[:, 0].any()):
+            return "across"
+        return "along" if grid[0].any() or grid[-1].any() else ""
+
     def nodal_pressure(self, forces: Array) -> Array:
         """Pressure (mx*my,) [Pa] at the wheel's tread nodes from forces (nx*ny,) [N] at points.
 

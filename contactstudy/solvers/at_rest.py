@@ -1,6 +1,6 @@
 """Wheel and rail at rest, ready to be pressed together."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -12,7 +12,6 @@ from contactstudy.contact.rail_surface import RailSurface
 from contactstudy.contact.surface_contact import SurfaceContact
 from contactstudy.dynamics.banded import Factor
 from contactstudy.geometry.points import ContactPoints
-from contactstudy.solids.wheel_modes import residual_flexibility
 from contactstudy.track.meshed import MeshedTrack
 
 
@@ -76,13 +75,6 @@ def geometry_press(
 
 
 def geometry_table(track: MeshedTrack, contact: SurfaceContact, load: float) -> PressTable:
-    """The press in mid-bay as a point law has it, from nothing to a multiple of a load [N].
-
-    What modes of the wheel give way statically is left out of it: they move by themselves.
-    """
-    if contact.modes is not None:
-        contact = replace(
-            contact, wheel=residual_flexibility(contact.wheel, contact.modes), modes=None
-        )
+    """The press in mid-bay as a point law has it, from nothing to a multiple of a load [N]."""
     at = bodies_at_rest(track, contact)
     return press_table(at.points, at.flexibility, load, contact.enforcement, at.centre_line)

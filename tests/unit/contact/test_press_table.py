@@ -9,6 +9,7 @@ from contactstudy.contact.augmented import Penalty
 from contactstudy.contact.law_forces import of_penetration
 from contactstudy.contact.laws import PressSpring
 from contactstudy.contact.press_table import LARGEST, PressTable, press_table
+from contactstudy.exceptions import NumericalError
 from contactstudy.halfspace.hertz import contact_modulus, hertz_contact
 from contactstudy.verification.cases.patch_filter import influence_matrix
 
@@ -16,10 +17,9 @@ LOAD, CELL = 80e3, 0.75e-3
 HERTZ = hertz_contact(LOAD, contact_modulus(), 0.43, 0.30)
 
 
-@pytest.fixture(scope="module")
-def table() -> PressTable:
-    """Rectangles of Love's on half-spaces, wide enough for the largest load."""
-    x, y = CELL * np.arange(-13, 14), CELL * np.arange(-11, 12)
+def pressed(n: int) -> PressTable:
+    """Rectangles of Love's on half-spaces, n on half the length."""
+    x, y = CELL * np.arange(-n, n + 1), CELL * np.arange(-11, 12)
     X, Y = (v.ravel() for v in np.meshgrid(x, y, indexing="ij"))
     M = influence_matrix(X, Y, CELL, CELL, contact_modulus()) / CELL**2
     points = SimpleNamespace(
@@ -27,9 +27,29 @@ def table() -> PressTable:
         gap=X**2 / 0.86 + Y**2 / 0.60,
         normal_z=np.ones(len(X)),
         area=np.full(len(X), CELL**2),
+        edge_reached=lambda on: "along" if on.reshape(len(x), -1)[[0, -1]].any() else "",
     )
     law = Penalty(1e20)
     return press_table(points, M, LOAD, law, np.zeros(len(X)))  # type: ignore[arg-type]
+
+
+@pytest.fixture(scope="module")
+def table() -> PressTable:
+    """Of places enough for the largest load."""
+    return pressed(13)
+
+
+def test_a_table_ends_where_the_places_do(table: PressTable) -> None:
+    cut = pressed(11)
+    short = PressSpring(cut.approach, cut.force)
+    # a patch that reaches a = 11 cells carries (a/a0)^3 of the load
+    limit = LOAD * (11 * CELL / HERTZ.semi_axis_x) ** 3
+    assert 0.8 * limit < short.largest < 1.05 * limit < LARGEST * LOAD
+    for share in (0.5, 1.0):
+        whole = PressSpring(table.approach, table.force).approach_at(share * LOAD)
+        assert short.approach_at(share * LOAD) == pytest.approx(whole, rel=1e-3)
+    with pytest.raises(NumericalError, match=r"along the rail .* \(contact_half_length"):
+        pressed(8)
 
 
 def test_force_over_approach_is_that_of_hertz(table: PressTable) -> None:

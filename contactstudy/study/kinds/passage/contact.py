@@ -44,8 +44,9 @@ class PressRecipe:
 
 
 def press_table(study: Study, run: str) -> PressTable:
-    """The press of a point run's bodies, computed or taken from the cache."""
-    return cached(_press_body(study, run))
+    """The press of a point run's bodies, but for what modes of its wheel give way."""
+    table, wheel = cached(_press_body(study, run)), point_wheel(study, run)
+    return table if wheel is None else table.without(wheel.give)
 
 
 def bodies(study: Study, run: str) -> list[CachedBody[Any]]:
@@ -79,7 +80,7 @@ def pressed(recipe: PressRecipe) -> PressTable:
 
 def _plain(study: Study, run: str) -> list[Any]:
     """All that decides the press of a run: recipes of the bodies, track, position, enforcement."""
-    solid, model = study.solid, study.wheel(run)
+    solid = study.solid
     files = [getattr(study.wheelset, key) for key in WHEELSET_PATHS]
     scans = [getattr(study.scan, key) for key in SCAN_PATHS]
     placed = (
@@ -95,8 +96,8 @@ def _plain(study: Study, run: str) -> list[Any]:
     return [
         repr(build.track(study)),
         repr(build.recipe(study)),
-        repr(build.modes_recipe(study) if model == "modal" else build.wheel_recipe(study)),
-        [model, solid.contact_points, solid.penalty, solid.tolerance],
+        repr(build.wheel_recipe(study)),
+        [study.wheel(run) == "rigid", solid.contact_points, solid.penalty, solid.tolerance],
         study.vehicle.static_load,
         *placed,
     ]
@@ -175,7 +176,7 @@ def point_wheel(study: Study, run: str) -> PointWheel | None:
     """The wheel of a point run if its modes move."""
     if study.wheel(run) != "modal":
         return None
-    return PointWheel.of(build.surface_contact(study, run), press_table(study, run))
+    return PointWheel.of(build.surface_contact(study, run), cached(_press_body(study, run)))
 
 
 def _point(study: Study, run: str) -> PointRun:
