@@ -2,6 +2,7 @@
 
 import csv
 import math
+import re
 from pathlib import Path
 
 from contactstudy.exceptions import InputError
@@ -31,13 +32,46 @@ def read_rows(path: Path) -> list[tuple[int, list[str]]]:
     return rows
 
 
+_NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
+
+
 def finite_number(cell: str) -> float | None:
-    """Number in a cell, or None if it is not a finite one."""
-    try:
-        value = float(cell)
-    except ValueError:
-        return None
+    """Number in a cell, or None if it is not a finite one in plain digits (``1_0`` is none)."""
+    value = float(cell) if _NUMBER.fullmatch(cell) else math.nan
     return value if math.isfinite(value) else None
+
+
+def header_cells(path: Path, rows: list[tuple[int, list[str]]]) -> list[str]:
+    """Names in the first row, which must differ; no row may have more cells than it.
+
+    Cells without text behind the last column are passed over.
+    """
+    line, cells = rows[0]
+    header = [name.strip() for name in cells]
+    while header and not header[-1]:
+        header.pop()
+    faults = [
+        f"line {line}: there is more than one column '{name}'"
+        for name in dict.fromkeys(header)
+        if name and header.count(name) > 1
+    ]
+    problems = listed(path, faults)
+    wide = [
+        (line, len(cells))
+        for line, cells in rows[1:]
+        if any(cell.strip() for cell in cells[len(header) :])
+    ]
+    problems += listed(
+        path,
+        [
+            f"line {line} has {count} cells, the header {len(header)}; numbers need a decimal "
+            "point and no thousands separator (is it a decimal comma?)"
+            for line, count in wide
+        ],
+    )
+    if problems:
+        raise InputError(problems)
+    return header
 
 
 def listed(path: Path, faults: list[str]) -> list[str]:

@@ -80,7 +80,7 @@ class Irregularity(Parameters):
     ] = ""
     x_column: Annotated[str, "column of the CSV file with the position in m"] = "x"
     level_column: Annotated[str, "column with the level, up positive"] = ""
-    level_unit: Annotated[Literal["mm", "m"], "its unit"] = "mm"
+    level_unit: Annotated[Literal["mm", "m", "um", "µm"], "its unit"] = "mm"
     origin: Annotated[q.Position, _MEASURED, "position in the file that is X = 0"] = 0.0
     wavelengths: Annotated[
         tuple[float, float], Unit("m"), Above(0), "shortest and longest wavelength that is kept"
@@ -99,6 +99,9 @@ class Irregularity(Parameters):
                 f"{key('file')}: is missing; a measured irregularity needs a CSV file "
                 "(--set irregularity.file=PATH)"
             )
+        if self.measured_file and self.level_column == self.x_column:
+            allowed = f"must be another column than {key('x_column')}"
+            problems.append(complaint(key("level_column"), self.level_column, allowed))
         if self.measured_file and not self.level_column:
             problems.append(
                 f"{key('level_column')}: is missing; name the column of the CSV with the level"

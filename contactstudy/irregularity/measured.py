@@ -12,6 +12,8 @@ from numpy.typing import ArrayLike
 
 from contactstudy.arrays import Array
 from contactstudy.exceptions import InputError
+from contactstudy.irregularity.band_pass import band_passed
+from contactstudy.irregularity.plausible import implausible
 from contactstudy.irregularity.profile import check_derivative
 from contactstudy.irregularity.table import read_columns
 from contactstudy.validation import raise_if
@@ -52,6 +54,17 @@ class MeasuredProfile:
     def domain(self) -> tuple[float, float]:
         """First and last position [m]."""
         return float(self.positions[0]), float(self.positions[-1])
+
+    @property
+    def sound(self) -> tuple[float, float]:
+        """Positions between which the band-pass has settled [m]; low > high if it never does.
+
+        What lies beyond the record's ends is unknown to it: over the longest wavelength from an end
+        the level is wrong by its own size at first and by a twelfth of it in the end (RMS over
+        records of steep spectrum, cut, against the same records whole).
+        """
+        margin = 0.0 if self.wavelengths is None else self.wavelengths[1]
+        return self.domain[0] + margin, self.domain[1] - margin
 
     @cached_property
     def _spline(self) -> BSpline:
@@ -111,7 +124,8 @@ def measured_profile(
     Raises
     ------
     InputError
-        With every fault of the file and the arguments, by file, line and column.
+        With every fault of the file and the arguments, by file, line and column; the rules for
+        gaps and values are in `contactstudy.irregularity.plausible`.
     """
     file = Path(path)
     problems = []
@@ -124,16 +138,20 @@ def measured_profile(
     if wavelengths is not None and not 0.0 < wavelengths[0] < wavelengths[1] < np.inf:
         problems.append(f"{file}: wavelengths are {wavelengths} m; allowed: 0 < shortest < longest")
     try:
-        x, level = read_columns(file, (x_column, level_column))
+        x, level, lines = read_columns(file, (x_column, level_column))
     except InputError as error:
         raise InputError([*error.problems, *problems]) from None
+    if level_unit in UNITS:
+        shortest = None if wavelengths is None else wavelengths[0]
+        unit = level_unit, UNITS[level_unit]
+        problems += implausible(file, x, level, lines, level_column, unit, shortest)
     x = x - origin
     if required is not None:
         problems += _uncovered(str(file), (float(x[0]), float(x[-1])), *required)
     raise_if(problems)
     level = level * UNITS[level_unit]
     if wavelengths is not None:
-        x, level = _band_passed(file, x, level, wavelengths, interpolation)
+        x, level = band_passed(file, x, level, wavelengths, _DEGREE[interpolation])
     return MeasuredProfile(x, level, interpolation, wavelengths, str(file))
 
 
@@ -146,39 +164,3 @@ def _uncovered(name: str, domain: tuple[float, float], start: float, end: float)
         f"{name}: positions X from {start:g} m to {end:g} m are wanted; the file "
         f"covers {low:g} m to {high:g} m ('origin' is the file's position at X = 0)"
     ]
-
-
-def _band_passed(
-    file: Path,
-    x: Array,
-    level: Array,
-    wavelengths: tuple[float, float],
-    interpolation: Interpolation,
-) -> tuple[Array, Array]:
-    from scipy.interpolate import make_interp_spline
-    from scipy.signal import butter, sosfiltfilt
-
-    step = np.diff(x)
-    dx = float(np.median(step))
-    if np.abs(step - dx).max() > 1e-6 * dx:
-        even = np.linspace(x[0], x[-1], round((x[-1] - x[0]) / dx) + 1)
-        spline = make_interp_spline(x, level, k=_DEGREE[interpolation])
-        x, level = even, np.asarray(spline(even), dtype=float)
-        dx = float(x[1] - x[0])
-    shortest, longest = wavelengths
-    problems = []
-    if shortest <= 2.0 * dx:
-        problems.append(
-            f"{file}: shortest wavelength is {shortest:g} m; allowed: above {2.0 * dx:g} m, twice "
-            "the spacing of the rows"
-        )
-    if longest > x[-1] - x[0]:
-        problems.append(
-            f"{file}: longest wavelength is {longest:g} m; allowed: up to {x[-1] - x[0]:g} m, the "
-            "length of the record"
-        )
-    raise_if(problems)
-    sos = butter(4, (1.0 / longest, 1.0 / shortest), "bandpass", fs=1.0 / dx, output="sos")
-    # mirrored ends longer than the longest wavelength let the filter settle outside the record
-    pad = min(len(x) - 1, round(2.0 * longest / dx))
-    return x, np.asarray(sosfiltfilt(sos, level, padlen=pad), dtype=float)

@@ -4,27 +4,31 @@ from pathlib import Path
 
 import numpy as np
 
-from contactstudy.arrays import Array
-from contactstudy.csv_rows import finite_number, listed, read_rows
+from contactstudy.arrays import Array, IntArray
+from contactstudy.csv_rows import finite_number, header_cells, listed, read_rows
 from contactstudy.exceptions import InputError
 from contactstudy.validation import raise_if
 
 
-def read_columns(path: Path, columns: tuple[str, str], min_rows: int = 4) -> tuple[Array, Array]:
+def read_columns(
+    path: Path, columns: tuple[str, str], min_rows: int = 4
+) -> tuple[Array, Array, IntArray]:
     """Two columns of numbers, the first of them increasing.
 
     The file is comma-separated and its first line names the columns; blank lines are skipped.
-    Positions and values (n,) stay in the file's own units.
+    Positions and values (n,) stay in the file's own units, the lines (n,) count from 1.
 
     Raises
     ------
     InputError
-        For a file that cannot be read, a missing column, cells that are empty, not numbers or
-        not finite, positions that do not increase, or too few rows: file, line and column of
-        each.
+        For a file that cannot be read, a missing column or two of one name, rows that are wider
+        than the header, cells that are empty, not numbers or not finite, positions that do not
+        increase, or too few rows: file, line and column of each.
     """
     rows = read_rows(path)
-    header = [name.strip() for name in rows[0][1]]
+    header = header_cells(path, rows)
+    if columns[0] == columns[1]:
+        raise InputError(f"{path}: '{columns[0]}' is named as the position and as the level")
     missing = [name for name in columns if name not in header]
     if missing:
         raise InputError(
@@ -49,7 +53,8 @@ def read_columns(path: Path, columns: tuple[str, str], min_rows: int = 4) -> tup
     if len(table) < min_rows:
         problems.append(f"{path}: {len(table)} rows of numbers; allowed: {min_rows} or more")
     raise_if(problems)
-    return table[:, 0].copy(), table[:, 1].copy()
+    lines = np.array([line for line, _ in rows[1:]], dtype=np.int64)
+    return table[:, 0].copy(), table[:, 1].copy(), lines
 
 
 def _disorder(rows: list[tuple[int, list[str]]], positions: Array, name: str) -> list[str]:

@@ -17,13 +17,13 @@ def _wave(path, x, level, name="level_mm"):
 
 @pytest.mark.parametrize(("unit", "scale"), [("m", 1.0), ("mm", 1e-3), ("um", 1e-6)])
 def test_unit_and_origin(tmp_path, unit, scale):
-    file = _write(tmp_path / "a.csv", "km,z\n98000,1\n98001,3\n98002,2\n98003,5\n")
+    file = _write(tmp_path / "a.csv", "km,z\n98000,.01\n98001,.03\n98002,.02\n98003,.05\n")
     profile = measured_profile(
         file, "z", unit, x_column="km", origin=98000.0, interpolation="linear"
     )
     assert profile.domain == (0.0, 3.0)
-    np.testing.assert_allclose(profile([0.0, 0.5, 3.0]), np.array([1.0, 2.0, 5.0]) * scale)
-    np.testing.assert_allclose(profile([0.5, 1.5], 1), np.array([2.0, -1.0]) * scale)
+    np.testing.assert_allclose(profile([0.0, 0.5, 3.0]), np.array([0.01, 0.02, 0.05]) * scale)
+    np.testing.assert_allclose(profile([0.5, 1.5], 1), np.array([0.02, -0.01]) * scale)
     with pytest.raises(InputError, match="no second derivative"):
         profile(1.0, 2)
 

@@ -94,3 +94,37 @@ def test_check_and_results_say_the_standard_deviation_by_band():
         "D1 (3 to 25 m)" in line for line in needs(study, (), Quiet()) if isinstance(line, str)
     )
     assert describe(parse_study("demo", SMOOTH)).info.profile is None
+
+
+def written(path, spacing, level, n=1000):
+    x = spacing * np.arange(n)
+    rows = [f"{a:.4f},{b:.5f}" for a, b in zip(x, level(x), strict=True)]
+    path.write_text("\n".join(["x,um", *rows]), "utf-8")
+    table = {"spectrum": "measured", "file": str(path), "level_column": "um", "level_unit": "um"}
+    journey = {"from": "6 m", "to": "30 m"}
+    return {"irregularity": table, "journey": journey, "runs": {"p": {"solver": "point"}}}
+
+
+def test_the_default_wavelengths_do_not_silently_drop_a_record(tmp_path):
+    data = written(tmp_path / "r.csv", 0.005, lambda x: 5 * np.sin(2 * np.pi * x / 0.1), 12000)
+    with pytest.raises(InputError, match=r"wavelengths: the default of 2\.5 to 42 m leave out 9"):
+        describe(parse_study("demo", data))
+    data["irregularity"]["wavelengths"] = ["20 mm", "1 m"]
+    study = parse_study("demo", data)
+    note = describe(study).warnings[0]
+    assert "0.02 to 1 m leave out" in note
+    x = np.linspace(8, 28, 999)
+    assert irregularity_of(study)(x) == pytest.approx(5e-6 * np.sin(20 * np.pi * x), abs=5e-8)
+
+
+def test_a_journey_beyond_what_is_sound_is_warned_of_and_zero_is_said(tmp_path):
+    waves = written(tmp_path / "r.csv", 0.25, lambda x: 500 * np.sin(2 * np.pi * x / 10), 240)
+    waves["irregularity"]["wavelengths"] = ["2.5 m", "20 m"]
+    share, sound = describe(parse_study("demo", waves)).warnings
+    assert "leave out" in share and "of X = 0 to 59.75 m only X = 20 to 39.75 m is sound" in sound
+    zero = written(tmp_path / "z.csv", 0.25, np.zeros_like, 1000)
+    described = describe(parse_study("demo", zero))
+    assert "z.csv: the level is zero throughout: the rail is smooth" in described.warnings
+    assert described.info.measured is None and not described.info.profile.level.any()
+    flat = {"irregularity": {"spectrum": "sinusoid", "amplitude": 0.0}}
+    assert "zero throughout" in describe(parse_study("demo", flat)).warnings[0]

@@ -10,12 +10,14 @@ from pathlib import Path
 import numpy as np
 
 from contactstudy import irregularity as irr
+from contactstudy.exceptions import InputError
 from contactstudy.files import file_digest
 from contactstudy.irregularity.shown import IrregularityInfo, Level, SpectrumCurve
 from contactstudy.study.kinds.passage.schema import Study
 from contactstudy.track.model import Direction
 
 PROFILE_STEP = 0.01  # m, of the profile drawn in Fig. 1b
+MOST_LEFT_OUT = 0.5  # of a record's variance, by wavelengths that nobody stated
 CURVE_POINTS = 400  # of a spectrum's formula
 
 
@@ -50,7 +52,7 @@ class Described:
             spectrum=_curve(table) if formula else None,
             estimate=_estimate(table, self.profile) if table.generated else None,
             profile=None if smooth else _sampled(self.study, self.profile),
-            measured=measured,
+            measured=measured if measured and np.any(measured.density) else None,
             measured_profile=level,
         )
 
@@ -87,10 +89,56 @@ def describe(study: Study) -> Described:
         irr.check_repeat(profile, study.journey.end - study.journey.start)
     if table.measured_file:
         measured = table.measured(None), table.measured(table.wavelengths)
-    described = Described(study, profile, measured, tuple(str(w.message) for w in caught))
+    notes = [str(w.message) for w in caught]
+    if measured:
+        notes.append(_left_out(table, *measured))
+        if table.spectrum == "measured":
+            notes += _unsettled(study, measured[1])
+    elif is_zero(study, profile):
+        notes.append("the irregularity is zero throughout: the rail is smooth")
+    described = Described(study, profile, measured, tuple(notes))
     if measured:
         _ = described.info  # a level too short for an estimate is refused here
     return described
+
+
+def _left_out(table: irr.Irregularity, raw: irr.MeasuredProfile, kept: irr.MeasuredProfile) -> str:
+    """How much of a record's variance about its trend the band-pass leaves out.
+
+    ``InputError`` where the default wavelengths would drop most of it without a word.
+    """
+    about = raw.levels - np.polyval(np.polyfit(raw.positions, raw.levels, 1), raw.positions)
+    name, variance = Path(table.measured_file).name, float(np.var(about))
+    if variance == 0.0:
+        return f"{name}: the level is zero throughout: the rail is smooth"
+    share = min(max(1.0 - float(np.var(kept.levels)) / variance, 0.0), 1.0)
+    low, high = table.wavelengths
+    text = f"{low:g} to {high:g} m leave out {100 * share:.3g} % of the variance of {name}"
+    if share > MOST_LEFT_OUT and not table.given("wavelengths"):
+        raise InputError(
+            f"irregularity.wavelengths: the default of {text}; state the shortest and the longest "
+            "wavelength that the measurement is valid for"
+        )
+    return f"wavelengths of {text}"
+
+
+def _unsettled(study: Study, profile: irr.MeasuredProfile) -> list[str]:
+    """Warning of a journey over what the band-pass has not settled on."""
+    (low, high), journey = profile.sound, study.journey
+    if not study.runs or (low <= journey.start and journey.end <= high):
+        return []
+    part = f"only X = {low:.4g} to {high:.4g} m" if low < high else "nothing"
+    return [
+        f"{Path(profile.name).name}: of X = {profile.domain[0]:.4g} to {profile.domain[1]:.4g} m "
+        f"{part} is sound, because the band-pass needs the longest wavelength on either side to "
+        f"settle; the journey goes from {journey.start:g} to {journey.end:g} m"
+    ]
+
+
+def is_zero(study: Study, profile: irr.Profile) -> bool:
+    """Whether an irregularity that is asked for is zero wherever the wheel may be."""
+    table = study.irregularity
+    return table.spectrum != "smooth" and not np.any(_sampled(study, profile).level)
 
 
 def _curve(table: irr.Irregularity) -> SpectrumCurve:

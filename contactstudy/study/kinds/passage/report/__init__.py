@@ -2,6 +2,7 @@
 
 from typing import Any
 
+from contactstudy.figures.irregularity import irregularity_of
 from contactstudy.figures.passing_components import is_smooth
 from contactstudy.report.blocks import Block, cited, figure, paragraphs, text
 from contactstudy.study.kind import Part, Report
@@ -81,6 +82,9 @@ def _parts(results: StudyResults) -> list[Part]:
         blocks = [figure(d.name, d.caption) for d in made if d.name.startswith(names)]
         if title == "Contact patch":
             blocks += stress_tables(results)
+        profile = irregularity_of(results).profile if title == "Irregularity" else None
+        if profile is not None and not profile.level.any():
+            blocks.append(text("The irregularity is zero throughout: the rail is smooth."))
         if blocks:
             parts.append({"title": title, "blocks": blocks})
     return parts

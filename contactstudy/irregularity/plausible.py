@@ -1,0 +1,75 @@
+"""Whether a column of numbers can be a measured level: gaps, placeholders, size, dead channels."""
+
+import re
+from pathlib import Path
+
+import numpy as np
+
+from contactstudy.arrays import Array, BoolArray, IntArray
+from contactstudy.csv_rows import listed
+
+LARGEST = 0.1
+"""Largest level [m]: a rail that far off its mean is not travelled; the unit is wrong."""
+FEW_ROWS = 4
+"""Rows that may be missing where no shortest wavelength is asked for."""
+
+_PLACEHOLDER = re.compile(r"-?(9{3,}(\.9*)?|32768|32767|2147483648|2147483647)")
+_FAR = 10.0  # robust standard deviations from the median
+
+
+def implausible(
+    file: Path,
+    x: Array,
+    level: Array,
+    lines: IntArray,
+    column: str,
+    unit: tuple[str, float],
+    shortest: float | None,
+) -> list[str]:
+    """Complaints with their lines; level (n,) in the unit [name, m], positions (n,) in m.
+
+    A gap is longer than half the shortest wavelength that is kept [m], which no interpolation can
+    bridge, or without one longer than a few rows.
+    """
+    spacing = float(np.median(np.diff(x)))
+    longest = FEW_ROWS * spacing if shortest is None else max(0.5 * shortest, 1.5 * spacing)
+    why = "a few rows" if shortest is None else "half the shortest wavelength that is kept"
+    steps = np.diff(x)
+    problems = listed(
+        file,
+        [
+            f"lines {lines[k]} to {lines[k + 1]}: {steps[k]:.4g} m without a row; allowed: at "
+            f"most {longest:.4g} m, {why} (use one side of the gap)"
+            for k in np.flatnonzero(steps > longest * (1 + 1e-9))
+        ],
+    )
+    placeholders = _placeholders(level)
+    problems += listed(
+        file,
+        [
+            f"line {lines[k]}, column '{column}' is {level[k]:g}, which looks like a placeholder "
+            "for no value; leave such rows out"
+            for k in np.flatnonzero(placeholders)
+        ],
+    )
+    name, metre = unit
+    problems += listed(
+        file,
+        [
+            f"line {lines[k]}, column '{column}' is {level[k]:g} {name}; allowed: at most "
+            f"{LARGEST / metre:g} {name} (is the unit right?)"
+            for k in np.flatnonzero((np.abs(level) * metre > LARGEST) & ~placeholders)
+        ],
+    )
+    if level[0] != 0.0 and np.all(level == level[0]):
+        problems.append(f"{file}, column '{column}' is {level[0]:g} in all rows: a dead channel")
+    return problems
+
+
+def _placeholders(level: Array) -> BoolArray:
+    """Which values (n,) are runs of nines or ends of integers, far from all that is measured."""
+    middle = float(np.median(level))
+    spread = 1.4826 * float(np.median(np.abs(level - middle)))
+    found = np.abs(level - middle) > _FAR * spread
+    found[found] = [bool(_PLACEHOLDER.fullmatch(f"{value:.10g}")) for value in level[found]]
+    return np.asarray(found)

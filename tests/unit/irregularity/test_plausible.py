@@ -1,0 +1,133 @@
+"""Every kind of impossible record is refused with its line, wherever it stands (seeded)."""
+
+import random
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from contactstudy.exceptions import InputError
+from contactstudy.irregularity import measured_profile
+
+ROWS = 400
+
+
+def record(seed):
+    """Positions and levels [mm] of a plausible record."""
+    rng = np.random.default_rng(seed)
+    x = 0.25 * np.arange(ROWS)
+    waves = rng.uniform(3.0, 40.0, 8)
+    return x, sum(rng.normal() * np.sin(2 * np.pi * x / w) for w in waves) * 0.3
+
+
+def cells(seed):
+    x, level = record(seed)
+    return [["x", "level"], *([f"{a:.2f}", f"{b:.3f}"] for a, b in zip(x, level, strict=True))]
+
+
+def read(folder, rows, level="level", unit="mm", wavelengths=(2.5, 42.0), **more):
+    file = folder / "record.csv"
+    file.write_text("\n".join(",".join(row) for row in rows) + "\n", "utf-8")
+    return measured_profile(file, level, unit, wavelengths=wavelengths, **more)
+
+
+def wide(rows, at, random):
+    rows[at] = [*rows[at], str(random.randrange(10, 999))]
+    return f"line {at + 1} has 3 cells, the header 2"
+
+
+def gap(rows, at, random):
+    at = min(at, ROWS - 12)
+    del rows[at + 1 : at + 1 + random.randrange(6, 10)]
+    return f"lines {at + 1} to {at + 2}: "
+
+
+def placeholder(rows, at, random):
+    rows[at][1] = random.choice(["-999", "999", "9999", "-9999.0", "999.99", "-99999", "32767"])
+    return f"line {at + 1}, column 'level' is {float(rows[at][1]):g}, which looks like"
+
+
+def too_large(rows, at, random):
+    rows[at][1] = f"{random.choice([-1, 1]) * random.uniform(101, 9000):.2f}"
+    return f"line {at + 1}, column 'level' is {float(rows[at][1]):g} mm; allowed: at most 100 mm"
+
+
+def no_number(rows, at, random):
+    column = random.randrange(2)
+    rows[at][column] = random.choice(["1_0", "１.5", "٣", "nan", "inf", "0x1p3", "1e999", "--1"])
+    return f"line {at + 1}, column '{['x', 'level'][column]}' is '{rows[at][column]}'"
+
+
+def twice(rows, at, random):
+    for row in rows:
+        row.append(row[1])
+    return "there is more than one column 'level'"
+
+
+def dead(rows, at, random):
+    for row in rows[1:]:
+        row[1] = "0.375"
+    return "column 'level' is 0.375 in all rows: a dead channel"
+
+
+FAULTS = (wide, gap, placeholder, too_large, no_number, twice, dead)
+
+
+@pytest.mark.parametrize("fault", FAULTS)
+@settings(max_examples=15, deadline=None)
+@given(at=st.integers(2, ROWS - 2), seed=st.integers(0, 99))
+def test_a_fault_anywhere_is_refused_with_its_line(tmp_path_factory, fault, at, seed):
+    folder, rows = tmp_path_factory.mktemp("f"), cells(seed)
+    read(folder, rows)  # sound
+    expected = fault(rows, at, random.Random(seed))
+    with pytest.raises(InputError) as found:
+        read(folder, rows)
+    assert expected in str(found.value)
+
+
+def test_what_is_allowed(tmp_path):
+    rows = cells(1)
+    rows = [[*row, " "] for row in rows]  # an empty cell behind the last column
+    del rows[50:53]  # 1 m without a row, less than half of 2.5 m
+    assert read(tmp_path, rows).wavelengths == (2.5, 42.0)
+    nines = [["x", "level"], *([f"{k}", f"{9.99 * np.sin(k):.2f}"] for k in range(ROWS))]
+    nines[7][1] = "9.99"
+    assert read(tmp_path, nines, wavelengths=None).levels.size == ROWS
+    zero = [["x", "level"], *([f"{k}", "0.0"] for k in range(ROWS))]
+    assert not read(tmp_path, zero, wavelengths=None).levels.any()
+
+
+def test_without_wavelengths_a_few_rows_may_be_missing(tmp_path):
+    rows = cells(1)
+    del rows[50:53]
+    read(tmp_path, rows, wavelengths=None)
+    del rows[50:53]
+    with pytest.raises(InputError, match=r"lines 50 to 51: 1\.75 m .* at most 1 m, a few rows"):
+        read(tmp_path, rows, wavelengths=None)
+
+
+def test_position_and_level_are_different_columns(tmp_path):
+    with pytest.raises(InputError, match="'x' is named as the position and as the level"):
+        read(tmp_path, cells(1), level="x")
+
+
+def test_the_band_pass_is_sound_a_longest_wavelength_from_the_ends(tmp_path):
+    """A record cut out of a longer one against the longer one: the bound of `sound`."""
+    rng, errors = np.random.default_rng(4), []
+    for _ in range(30):
+        n = 6000
+        f = np.fft.rfftfreq(n, 0.25)
+        shape = 1.0 / np.maximum(f, 1 / 150) ** 1.5
+        level = np.fft.irfft(np.fft.rfft(rng.standard_normal(n)) * shape, n)
+        level *= 0.8 / level.std()
+        rows = [["x", "level"], *([f"{0.25 * k}", f"{v:.6f}"] for k, v in enumerate(level))]
+        whole = read(tmp_path, rows)
+        part = read(tmp_path, [rows[0], *rows[2000:4000]])
+        low, high = part.sound
+        assert low - part.domain[0] == 42.0
+        at = np.array([low, high])
+        errors.append((part(at) - whole(at)) / whole.levels.std())
+    rms = float(np.sqrt(np.mean(np.square(errors))))
+    print(f"error a longest wavelength from an end: {rms:.3f} of the level's own size (1/12)")
+    assert rms < 0.12
