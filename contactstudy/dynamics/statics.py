@@ -10,6 +10,8 @@ from contactstudy.exceptions import NumericalError
 
 _LOWERED, _LOWEST = 20e-6, 5e-3
 """m: by which a wheel that touches nothing is lowered at a time, and in all."""
+_LEAST = 1e-6
+"""N: load against which springs count as carrying nothing; lateral contact starts with none."""
 
 
 def static_start(
@@ -58,7 +60,7 @@ def static_start(
             "the undeformed rail still carries nothing"
         )
     for _ in range(100):
-        scale = max(np.abs(external).max(), np.abs(contact.load).max(), 1e-300)
+        scale = max(np.abs(external).max(), np.abs(contact.load).max(), _LEAST)
         if np.abs(force).max() <= coupling.accuracy * scale:
             rest = np.zeros(n)
             return State(0, 0.0, u, rest, rest, external + contact.load, contact)

@@ -134,6 +134,16 @@ def test_lateral_direction_has_no_static_load_and_holds_in_tension():
     assert run.attrs["static_load"] == [0.0]
 
 
+@pytest.mark.parametrize("stiffness", [7e8, 1.1e9, 3.3e9, 1e10])
+def test_a_start_without_any_load_is_at_rest(stiffness):
+    """A fade-in that begins at 1e-180 m leaves forces whose squares are beyond all floats."""
+    faint = HarmonicProfile(np.array([1e-180]), np.array([6.0]), np.array([0.2]))
+    journey = Journey(3.0, 3.1, 80.0, 1e-4, fade_in=0.0)
+    lateral = BeamTrack(TRACK, direction="Y")
+    run = point_contact(lateral, wheel_column(), faint, journey, law=LinearSpring(stiffness))
+    assert np.abs(run.contact_force).max() < 1e-100
+
+
 def test_profile_is_the_same_at_every_time_step_and_mesh():
     fine = point_contact(
         BeamTrack(TRACK, elements_per_bay=8),
