@@ -14,7 +14,7 @@ import numpy as np
 
 from contactstudy.arrays import Array
 from contactstudy.contact import law_forces
-from contactstudy.exceptions import NumericalError
+from contactstudy.exceptions import InputError, NumericalError
 from contactstudy.validation import Above, Parameters, Unit
 
 
@@ -111,6 +111,16 @@ class PressSpring:
     force: Array
     softness: ClassVar[float] = math.inf
     kind: ClassVar[int] = law_forces.PRESS
+
+    def __post_init__(self) -> None:
+        """Refuse a press that gives way less under more load."""
+        d, f = np.r_[0.0, self.approach], np.r_[0.0, self.force]
+        if not (np.all(np.diff(d) > 0.0) and np.all(np.diff(f) > 0.0)):
+            raise InputError(
+                "PressSpring: approach and force must grow from row to row, but the approach goes "
+                f"from {d[0]:g} over {d.max():.3g} to {d[-1]:.3g} m; where a press gives that, the "
+                "rail bends too far under the wheel (without supports, say): use Hertz's law"
+            )
 
     @property
     def largest(self) -> float:

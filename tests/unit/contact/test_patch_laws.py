@@ -11,6 +11,7 @@ from contactstudy.contact.law_forces import of_penetration
 from contactstudy.contact.laws import HertzSpring, PressSpring, point_forces
 from contactstudy.contact.patch_laws import FollowingPatch, WinklerBedding
 from contactstudy.contact.press_table import LARGEST, PressTable
+from contactstudy.exceptions import InputError
 from contactstudy.halfspace.hertz import contact_modulus, hertz_contact
 from contactstudy.irregularity import HarmonicProfile
 
@@ -144,3 +145,9 @@ def test_two_wheels_add_up():
             assert both[i] == pytest.approx(one[0], rel=1e-9)
         apart = point_forces(law, W, np.array([1e-6, 2e-6]), np.zeros(2), shape=shape)
         np.testing.assert_array_equal(apart, 0.0)
+
+
+@pytest.mark.parametrize("approach", [[2e-5, 1e-5, 3e-5], [1e-5, 1e-5, 2e-5], [0.0, 1e-5, 2e-5]])
+def test_a_press_that_does_not_grow_is_refused(approach):
+    with pytest.raises(InputError, match="approach and force must grow"):
+        PressSpring(np.array(approach), np.array([1e4, 2e4, 3e4]))
