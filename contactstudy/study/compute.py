@@ -2,26 +2,20 @@
 
 from __future__ import annotations
 
-import time
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
 
 from contactstudy.exceptions import ContactStudyError, InputError, NumericalError
-from contactstudy.executor import Outcome, Progress, Task, run_tasks
+from contactstudy.executor import Outcome, Task, run_tasks
 from contactstudy.files import ensure_writable
-from contactstudy.process import peak_memory_mb
 from contactstudy.reporter import Bars, Reporter
 from contactstudy.store import Kept
 from contactstudy.study.axes.measure import measure
-from contactstudy.study.kind import imported
 from contactstudy.study.plan import FAILED, Piece, Plan
-from contactstudy.study.study import Study
+from contactstudy.study.tasks import Names, execute, groups
 
-BATCH = 64
-"""Most pieces of work that are computed together."""
 _HERE = 8  # light pieces at most for which no process is started
 
 
@@ -35,6 +29,8 @@ class Found:
     measured: Mapping[str, Kept] = field(default_factory=dict)
     #: Why pieces could not be computed.
     failures: Mapping[Piece, str] = field(default_factory=dict)
+    #: Key of a variant -> why it could not be measured.
+    unmeasured: Mapping[str, str] = field(default_factory=dict)
 
 
 def compute(plan: Plan, jobs: int, reporter: Reporter, executor: Executor | None = None) -> Found:
@@ -66,11 +62,12 @@ def compute(plan: Plan, jobs: int, reporter: Reporter, executor: Executor | None
         if kept.value is None and piece not in failures:
             lost = f"run {piece.label}: was computed but is not in the store"
             raise ContactStudyError(kept.damage or lost)
-    measured = dict[str, Kept]()
+    measured, unmeasured = dict[str, Kept](), dict[str, str]()
     for one in plan.all:
         if one.swept:
-            measured |= measure(one, found, jobs, reporter)
-    return Found(found, measured, failures)
+            made, wrong = measure(one, found, jobs, reporter)
+            measured, unmeasured = measured | made, unmeasured | wrong
+    return Found(found, measured, failures, unmeasured)
 
 
 def _kept(plan: Plan, of: Iterable[Piece] | None = None) -> Iterator[tuple[Piece, Kept]]:
@@ -104,48 +101,15 @@ def _run(
     executor: Executor | None,
 ) -> dict[Piece, str]:
     """Compute and keep pieces; why those of studies with axes failed."""
-    names, bodies, tasks = _Names(), dict[str, Task](), dict[str, Task]()
-    bars, owners = dict[str, str](), dict[str, list[tuple[Plan, Piece]]]()
-    few = len(todo) <= _HERE
     # The long ones first, so that the short ones fill the gaps.
-    for group in _groups(sorted(todo, key=lambda pair: not pair[1].work.long), jobs):
-        one, first = group[0]
-        needed = (one.kind.before(p.study, p.work.name) for _, p in group)
-        before = [task for own in needed for task in names.tasks(own)]
-        bodies |= {task.name: task for task in before}
-        of = "" if one is plan else f"{one.study.name}: "
-        more = f" and {len(group) - 1} more" if len(group) > 1 else ""
-        name = names.free(f"{of}{first.label}{more}")
-        pieces = tuple((p.study, p.work.name) for _, p in group)
-        arguments = (one.kind.computing, one.kind.batching, pieces)
-        after = tuple(dict.fromkeys(task.name for task in before))
-        here = few and all(p.work.light for _, p in group)
-        tasks[name] = Task(name, execute, arguments, after, here)
-        owners[name] = group
-        if one.swept:
-            bars[name] = of + "runs"
-        elif first.work.bar:
-            bars[name] = of + first.work.bar
-    failures: dict[Piece, ContactStudyError] = {}
-    shown = Bars(reporter, bars)
-
-    def finished(name: str, outcome: Outcome) -> None:
-        results = outcome.value if name in owners and outcome.error is None else []
-        if outcome.error is not None and name in owners:
-            results = [outcome.error] * len(owners[name])
-        good = outcome.error is None
-        for (one, piece), made in zip(owners.get(name, ()), results, strict=True):
-            if isinstance(made, ContactStudyError):
-                good, failures[piece] = False, made
-                if one.swept:
-                    one.measures.save(FAILED, piece.key, _lines(piece, made))
-            else:
-                one.store.save(piece.work.name, piece.key, *made)
-                one.measures.discard(FAILED, piece.key)
-        shown.end(name, good)
-
-    outcomes = run_tasks([*bodies.values(), *tasks.values()], jobs, shown, finished, executor)
-    lost = [o.error for name, o in outcomes.items() if name not in owners and o.error is not None]
+    ordered = sorted(todo, key=lambda pair: not pair[1].work.long)
+    round_ = _Round(plan, list(groups(ordered, jobs)), reporter, here=True)
+    round_.run(jobs, executor)
+    failures, lost = round_.failures, round_.lost
+    if round_.broken:  # a process that died took all of its batch along
+        alone = _Round(plan, [[pair] for pair in round_.broken], reporter, here=False)
+        alone.run(jobs, executor)
+        failures, lost = failures | alone.failures, lost + alone.lost
     strict = {p: e for p, e in failures.items() if not p.title}
     for one in plan.all:  # nothing is left to show
         if all(failures.keys() & v.pieces.values() for v in one.variants.values()):
@@ -155,78 +119,64 @@ def _run(
     return {piece: "; ".join(_lines(piece, error)) for piece, error in failures.items()}
 
 
-def _groups(todo: Sequence[tuple[Plan, Piece]], jobs: int) -> Iterator[list[tuple[Plan, Piece]]]:
-    """Pieces that are computed together, at the place of the first of them."""
-    batches: dict[tuple[int, str], list[tuple[Plan, Piece]]] = {}
-    for one, piece in todo:
-        if piece.work.batch and one.swept:
-            batches.setdefault((id(one), piece.work.batch), []).append((one, piece))
-    # some batches for each worker, so that all end at about the same time
-    size = {key: min(BATCH, max(1, -(-len(own) // (2 * jobs)))) for key, own in batches.items()}
-    for one, piece in todo:
-        if not (piece.work.batch and one.swept):
-            yield [(one, piece)]
-        elif own := batches.pop((id(one), piece.work.batch), None):
-            step = size[id(one), piece.work.batch]
-            yield from (own[k : k + step] for k in range(0, len(own), step))
+class _Round:
+    """Groups of pieces that are computed in one go, with the bodies that they need."""
 
+    def __init__(
+        self,
+        plan: Plan,
+        parts: Sequence[list[tuple[Plan, Piece]]],
+        reporter: Reporter,
+        here: bool,
+    ) -> None:
+        names, bars, few = Names(), dict[str, str](), here and sum(map(len, parts)) <= _HERE
+        self._bodies, self._tasks = dict[str, Task](), dict[str, Task]()
+        self._owners = dict[str, list[tuple[Plan, Piece]]]()
+        self.failures: dict[Piece, ContactStudyError] = {}
+        self.broken: list[tuple[Plan, Piece]] = []
+        self.lost: list[ContactStudyError] = []
+        for group in parts:
+            one, first = group[0]
+            needed = (one.kind.before(p.study, p.work.name) for _, p in group)
+            before = [task for own in needed for task in names.tasks(own)]
+            self._bodies |= {task.name: task for task in before}
+            of = "" if one is plan else f"{one.study.name}: "
+            more = f" and {len(group) - 1} more" if len(group) > 1 else ""
+            name = names.free(f"{of}{first.label}{more}")
+            pieces = tuple((p.study, p.work.name) for _, p in group)
+            arguments = (one.kind.computing, one.kind.batching, pieces)
+            after = tuple(dict.fromkeys(task.name for task in before))
+            light = few and all(p.work.light for _, p in group)
+            self._tasks[name] = Task(name, execute, arguments, after, light)
+            self._owners[name] = group
+            if bar := "runs" if one.swept else first.work.bar:
+                bars[name] = of + bar
+        self._shown = Bars(reporter, bars)
 
-class _Names:
-    """Gives equal tasks one name, and different ones different names."""
+    def run(self, jobs: int, executor: Executor | None) -> None:
+        """Compute, and keep each piece as soon as it is there."""
+        tasks = [*self._bodies.values(), *self._tasks.values()]
+        run_tasks(tasks, jobs, self._shown, self._finished, executor)
 
-    def __init__(self) -> None:
-        self._tasks, self._taken = dict[tuple[Any, ...], Task](), set[str]()
-
-    def free(self, name: str) -> str:
-        """A name that nothing else has."""
-        made, number = name, 2
-        while made in self._taken:
-            made, number = f"{name} ({number})", number + 1
-        self._taken.add(made)
-        return made
-
-    def tasks(self, tasks: Sequence[Task]) -> list[Task]:
-        """Tasks under names of their own, also where they wait for each other; equal ones once."""
-        made: dict[str, Task] = {}
-        for task in tasks:
-            after = tuple(made[name].name for name in task.after)
-            key = (task.name, task.function, repr(task.arguments))
-            if key not in self._tasks:
-                self._tasks[key] = replace(task, name=self.free(task.name), after=after)
-            made[task.name] = self._tasks[key]
-        return list(made.values())
-
-
-def execute(
-    computing: str, batching: str, pieces: Sequence[tuple[Study, str]], progress: Progress
-) -> list[tuple[Any, dict[str, Any]] | ContactStudyError]:
-    """Compute pieces of work; the body of a worker process.
-
-    Value and cost of each, or the error that ended it where there are several.
-    """
-    began = time.perf_counter()
-    if len(pieces) == 1:
-        ((study, name),) = pieces
-        values = [imported(computing)(study, name, progress)]
-    elif batching:
-        values = imported(batching)(pieces, progress)
-    else:
-        values = [_one(imported(computing), study, name, progress) for study, name in pieces]
-    each = (time.perf_counter() - began) / len(pieces)
-    return [v if isinstance(v, ContactStudyError) else (v, _cost(v, each)) for v in values]
-
-
-def _one(compute_one: Callable[..., Any], study: Study, name: str, progress: Progress) -> Any:
-    try:
-        return compute_one(study, name, progress)
-    except ContactStudyError as error:
-        return error
-
-
-def _cost(value: Any, each: float) -> dict[str, Any]:
-    attrs = getattr(value, "attrs", {"seconds_stepping": each})
-    seconds = {k: float(attrs.get(f"seconds_{k}", 0.0)) for k in ("setup", "stepping")}
-    return {"seconds": seconds, "peak_memory_mb": peak_memory_mb()}
+    def _finished(self, name: str, outcome: Outcome) -> None:
+        group, results = self._owners.get(name, []), outcome.value or []
+        if outcome.error is not None:
+            if not group:
+                self.lost.append(outcome.error)
+            if len(group) > 1:
+                self.broken += group
+                group = []
+            results = [outcome.error] * len(group)
+        good = outcome.error is None
+        for (one, piece), made in zip(group, results, strict=bool(group)):
+            if isinstance(made, ContactStudyError):
+                good, self.failures[piece] = False, made
+                if one.swept:
+                    one.measures.save(FAILED, piece.key, _lines(piece, made))
+            else:
+                one.store.save(piece.work.name, piece.key, *made)
+                one.measures.discard(FAILED, piece.key)
+        self._shown.end(name, good)
 
 
 def _lines(piece: Piece, error: ContactStudyError) -> list[str]:

@@ -10,8 +10,9 @@ from typing import Any
 
 from contactstudy.exceptions import InputError
 from contactstudy.resources import resource
+from contactstudy.study.axes.keys import TABLES, apply_quick
 from contactstudy.study.axes.swept import Source, Swept
-from contactstudy.study.axes.table import TABLES, apply_quick, read_designs
+from contactstudy.study.axes.table import read_designs
 from contactstudy.study.kind import Kind, find_kind, kind_of_file
 from contactstudy.study.overrides import Overrides, read_texts
 from contactstudy.study.results import OUTPUTS

@@ -118,7 +118,7 @@ def print_check(study: Study, console: Console, reporter: Reporter, quick: bool 
     inputs = [find_kind(one.kind).read_inputs(one) for one in studies]
     needs = [*find_kind(study.kind).check(studies[0], studies[1:], reporter)]
     if isinstance(study, Swept):
-        needs += check_swept(study)
+        needs = ["the study as its file has it:", *needs, *check_swept(study)]
     console.print(Text(study.title, "bold"), f"({study.name})")
     if study.description:
         console.print(" ".join(study.description.split()), markup=False)

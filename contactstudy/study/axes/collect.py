@@ -50,6 +50,7 @@ def _against(plan: Plan, found: Found, name: str, finest: str) -> dict[str, Any]
 
 def _failure(variant: Planned, found: Found) -> str:
     reasons = [found.failures[p] for p in variant.pieces.values() if p in found.failures]
+    reasons += [found.unmeasured[variant.key]] if variant.key in found.unmeasured else []
     return "; ".join(dict.fromkeys(reasons))
 
 

@@ -36,8 +36,8 @@ class Asked:
 
 def measure(
     plan: Plan, found: Mapping[Piece, Kept], jobs: int, reporter: Reporter
-) -> dict[str, Kept]:
-    """Key of each variant whose pieces are all finished, and what is measured of it.
+) -> tuple[dict[str, Kept], dict[str, str]]:
+    """Key of each variant whose pieces are all finished: what is measured of it; what went wrong.
 
     What is measured already is not measured again.
     """
@@ -52,19 +52,22 @@ def measure(
         arguments = (plan.store, [wanted[key] for key in own])
         tasks.append(Task(name, measure_all, arguments, here=len(todo) <= _HERE))
         owners[name] = own
-    bars, errors = Bars(reporter, dict.fromkeys(owners, "norms")), list[ContactStudyError]()
+    bars, wrong = Bars(reporter, dict.fromkeys(owners, "norms")), dict[str, str]()
 
     def finished(name: str, outcome: Outcome) -> None:
-        if outcome.error is not None:
-            errors.append(outcome.error)
-        for key, value in zip(owners[name], outcome.value or (), strict=outcome.error is None):
-            store.save(MEASURED, key, value)
+        results = outcome.value if outcome.error is None else [outcome.error] * len(owners[name])
+        for key, value in zip(owners[name], results, strict=True):
+            if isinstance(value, ContactStudyError):
+                wrong[key] = f"norms: {value}"
+            else:
+                store.save(MEASURED, key, value)
         bars.end(name, outcome.error is None)
 
     run_tasks(tasks, jobs, bars, finished)
-    if errors:
-        raise errors[0]
-    return kept | {key: store.load(MEASURED, key) for key in todo}
+    if wrong and len(wrong) == len(wanted):
+        raise ContactStudyError(next(iter(wrong.values())))
+    made = {key: store.load(MEASURED, key) for key in todo if key not in wrong}
+    return {key: one for key, one in kept.items() if key not in wrong} | made, wrong
 
 
 def _wanted(plan: Plan, found: Mapping[Piece, Kept]) -> Iterator[tuple[str, Asked]]:
@@ -86,16 +89,19 @@ def _wanted(plan: Plan, found: Mapping[Piece, Kept]) -> Iterator[tuple[str, Aske
 
 
 def measure_all(store: Store, asked: Sequence[Asked], progress: Progress) -> list[Any]:
-    """Measure; the body of a worker process."""
+    """What is measured of each, or the error; the body of a worker process."""
     found, finest = list[Any](), dict[str, Mapping[str, Any]]()
     for one in asked:
-        arguments = [one.study, _pieces(store, one.keys)]
-        if one.finest is not None:
-            key = repr(one.finest)
-            if key not in finest:
-                finest = {key: _pieces(store, one.finest)}
-            arguments.append(finest[key])
-        found.append(imported(one.measuring)(*arguments))
+        try:
+            arguments = [one.study, _pieces(store, one.keys)]
+            if one.finest is not None:
+                key = repr(one.finest)
+                if key not in finest:
+                    finest = {key: _pieces(store, one.finest)}
+                arguments.append(finest[key])
+            found.append(imported(one.measuring)(*arguments))
+        except ContactStudyError as error:
+            found.append(error)
     return found
 
 

@@ -29,7 +29,7 @@ def check_swept(study: Swept) -> list[str]:
     seconds = expected_seconds(plan)
     told = f"; about {duration(seconds / 2)} with two at a time" if seconds else ""
     runs = f"{needed} runs, of which {len(plan.pieces)} differ"
-    return [*found, f"{len(plan.variants)} variants with {runs}{told}"]
+    return ["with its axes:", *found, f"{len(plan.variants)} variants with {runs}{told}"]
 
 
 def expected_seconds(plan: Plan) -> float:

@@ -10,13 +10,14 @@ from contactstudy.study import kind
 LAW = '''
 """Powers: values with a closed form."""
 import dataclasses
+import os
 import typing
 from typing import Annotated
 
 import numpy as np
 import xarray as xr
 
-from contactstudy.exceptions import NumericalError
+from contactstudy.exceptions import InputError, NumericalError
 from contactstudy.report.blocks import text
 from contactstudy.study.axes.measured import measured
 from contactstudy.study.kind import Kind, Report, Work
@@ -34,6 +35,7 @@ class Law(Parameters):
     scale: Annotated[float, "factor"] = 1.0
     seed: Annotated[int, AtLeast(0), "of a normal deviate"] = 0
     breaks_at: Annotated[float, Unit("m"), "x at which it breaks down"] = -1.0
+    dies_at: Annotated[int, "seed at which its process ends"] = -1
     word: Annotated[str, "any"] = ""
 
     def problems(self, key):
@@ -58,6 +60,8 @@ def compute(study, name, progress):
     law = study.law
     if law.x == law.breaks_at:
         raise NumericalError(f"x = {law.x:g} m breaks down")
+    if law.seed == law.dies_at:
+        os.kill(os.getpid(), 9)
     if name == "shared":
         return xr.Dataset({"y": ("k", [law.scale])})
     noise = np.random.default_rng(law.seed).normal() if law.seed else 0.0
@@ -66,6 +70,8 @@ def compute(study, name, progress):
 
 
 def measure(study, found):
+    if study.law.word == "odd":
+        raise InputError("cannot be measured")
     largest = {name: float(run.y.max()) for name, run in found.items()}
     return {"largest": measured("m", "largest y", ["run"], largest)}
 

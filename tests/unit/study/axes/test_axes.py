@@ -12,7 +12,7 @@ from contactstudy import cli
 from contactstudy.driver import run_study
 from contactstudy.exceptions import InputError
 from contactstudy.store import Store
-from contactstudy.study import compute
+from contactstudy.study import compute, tasks
 from contactstudy.study.axes import measure
 from contactstudy.study.loading import load_study
 from contactstudy.study.plan import plan_study
@@ -83,7 +83,7 @@ def test_bytes_do_not_depend_on_workers_order_or_batches(law, tmp_path, word, mo
     outs = [tmp_path / f"{jobs}" for jobs in (1, 3)]
     for jobs, out in zip((1, 3), outs, strict=True):
         swept(path, out, jobs)
-        monkeypatch.setattr(compute, "BATCH", 7)
+        monkeypatch.setattr(tasks, "BATCH", 7)
     for name in ("result.nc", "sweep.csv", "report.pdf"):
         one, other = ((out / name).read_bytes() for out in outs)
         assert one == other
@@ -127,6 +127,21 @@ def test_failed_variants_are_recorded_and_the_others_go_on(law, tmp_path, capsys
     assert [v["title"] for v in metrics["variants"].values() if "failure" in v] == ["x = 3"]
     # it is tried again, and only it
     assert cli.main(["run", str(path), *out]) == 1
+
+
+def test_a_process_that_dies_in_a_batch_costs_its_own_variant_only(law, tmp_path):
+    path = law('[sweep]\n"law.seed" = "1 to 12"\n', 'dies_at = 5\nword = "batch"')
+    data = swept(path, tmp_path / "out", 2).designs["sweep"]
+    failed = data["failure"] != ""
+    assert data["law.seed"].values[failed].tolist() == [5]
+    assert "process ended without a result" in str(data["failure"].values[failed])
+    assert data["largest"].notnull().sum() == 2 * 11
+
+
+def test_a_variant_that_cannot_be_measured_is_a_failure(law, tmp_path):
+    data = swept(law('[sweep]\n"law.word" = ["odd", "even"]\n'), tmp_path / "out").designs["sweep"]
+    assert data["failure"].values.tolist() == ["norms: cannot be measured", ""]
+    np.testing.assert_allclose(data["largest"].sel(run="power"), [np.nan, 6])
 
 
 def test_when_all_variants_fail_nothing_is_written(law, tmp_path, capsys):

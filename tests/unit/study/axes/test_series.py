@@ -7,8 +7,8 @@ import pytest
 from scipy import stats
 
 from contactstudy.study.axes.distributions import distribution, points
+from contactstudy.study.axes.keys import find_parameter
 from contactstudy.study.axes.series import series
-from contactstudy.study.axes.table import find_parameter
 from contactstudy.study.kinds.passage.kind import PASSAGE
 from contactstudy.units import UnitError
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from contactstudy.driver import run_study
+from contactstudy.driver import compute_study
 from contactstudy.figures.axes import drawings
 from contactstudy.figures.axes.maps import edges
 from contactstudy.plot.style import figure_style
@@ -17,7 +17,7 @@ from contactstudy.study.loading import load_study
 @pytest.fixture
 def swept(law, tmp_path):
     def run(text, own=""):
-        return run_study(load_study(law(text, own)), tmp_path / "out", 1)
+        return compute_study(load_study(law(text, own)), tmp_path / "out", 1)
 
     return run
 

@@ -1,0 +1,45 @@
+"""Keys that axes name, and the table ``[quick]``."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from contactstudy.study.kind import Kind
+from contactstudy.validation import Parameter, entries, unknown
+
+TABLES = ("sweep", "refine", "quick")
+"""Tables that are not a kind's."""
+
+
+def find_parameter(key: str, kind: Kind, data: Mapping[str, Any]) -> Parameter | str:
+    """The parameter of a dotted key of a study of a kind; a complaint if there is none."""
+    table, *rest = key.split(".")
+    if len(rest) == 1 and table in kind.tables:
+        known = entries(kind.tables[table])
+    elif len(rest) == 2 and table in kind.inner_tables:
+        members = data.get(table)
+        if not isinstance(members, Mapping) or rest[0] not in members:
+            return unknown(table, rest[0], list(members) if isinstance(members, Mapping) else [])
+        known = entries(kind.inner_tables[table])
+    else:
+        names = [*kind.tables, *(f"{group}.NAME" for group in kind.inner_tables)]
+        return f"{key}: is no key of a study of {kind.name}; its tables: {', '.join(names)}"
+    if rest[-1] in known:
+        return known[rest[-1]].parameter
+    return unknown(key.rpartition(".")[0], rest[-1], list(known))
+
+
+def apply_quick(data: dict[str, Any], quick: Mapping[str, Any]) -> dict[str, Any]:
+    """Enter what ``[quick]`` says of axes, in place; the other keys, of the study itself."""
+    own = {}
+    for key, value in quick.items():
+        table, _, rest = key.partition(".")
+        if table in TABLES[:2] and rest:
+            data.setdefault(table, {})[rest] = value
+        elif holders := [t for t in TABLES[:2] if key in (data.get(t) or {})]:
+            for holder in holders:
+                data[holder][key] = value
+        else:
+            own[key] = value
+    return own
