@@ -12,7 +12,8 @@ from contactstudy.geometry.placement import Geometry
 from contactstudy.geometry.points import ContactPoints
 from contactstudy.geometry.quadrature import Quadrature
 from contactstudy.geometry.search import CandidateList
-from contactstudy.geometry.tread import candidate_list, mesh_problems, wheel_points
+from contactstudy.geometry.tread import candidate_list, mesh_problems, tread_lines, wheel_points
+from contactstudy.irregularity import TreadLines
 from contactstudy.solids.wheel import WheelFlexibility
 from contactstudy.solids.wheel_modes import WheelModes, residual_flexibility
 from contactstudy.track.meshed import MeshedTrack
@@ -51,6 +52,11 @@ class SurfaceContact(Parameters):
     def points(self) -> ContactPoints:
         """Contact points on the wheel's tread."""
         return wheel_points(self.wheel, self.quadrature, self.geometry)
+
+    @cached_property
+    def lines(self) -> TreadLines:
+        """The lines of contact points round the wheel, on which its defects have a shape."""
+        return tread_lines(self.points, self.geometry or Geometry.of(self.wheel.recipe))
 
     @property
     def enforcement(self) -> Enforcement:

@@ -23,6 +23,7 @@ from contactstudy.contact.groups import patch_record
 from contactstudy.contact.moving_wheel import MovingWheel
 from contactstudy.contact.nearby import NearbyColumns
 from contactstudy.contact.rail_surface import RailSurface, RailUnderWheel
+from contactstudy.contact.wheel_path import WheelPath
 from contactstudy.dynamics.banded import Factor
 from contactstudy.dynamics.stepper import ContactStep
 from contactstudy.exceptions import NumericalError
@@ -57,14 +58,6 @@ class PatchState:
     active: BoolArray
     overlap: Array
     surface_load: Array
-
-
-@dataclass(frozen=True, eq=False)
-class WheelPath:
-    """X of the wheel (n_times,), and r at X + x of the lines of points (n_times, npx), in m."""
-
-    positions: Array
-    irregularity: Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -132,7 +125,7 @@ class AttachedSurface:
         under = coupling.rail.under(float(coupling.path.positions[step]))
         stretch = under.stretch
         near.move_to(stretch)
-        roughness = np.repeat(coupling.path.irregularity[step], len(points.y))
+        roughness = coupling.path.level(step, len(points.y))
         free = (
             points.gap
             + wheel.map @ u_free[wheel.dofs]

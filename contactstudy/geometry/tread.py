@@ -8,6 +8,7 @@ from contactstudy.geometry.placement import Geometry
 from contactstudy.geometry.points import ContactPoints, contact_points
 from contactstudy.geometry.quadrature import Quadrature
 from contactstudy.geometry.search import CandidateList
+from contactstudy.irregularity import TreadLines
 from contactstudy.solids.wheel import WheelFlexibility
 from contactstudy.track.meshed import MeshedTrack
 
@@ -21,6 +22,17 @@ def wheel_points(
     """
     geometry = geometry or Geometry.of(wheel.recipe)
     return contact_points(geometry, wheel.x, wheel.y, quadrature, wheel.recipe.symmetric)
+
+
+def tread_lines(points: ContactPoints, geometry: Geometry) -> TreadLines:
+    """The lines of contact points round a wheel: y, and how far from the touch's tangent plane."""
+    # arc lengths on the profile of the points across, of the first line of points along
+    first, my = slice(len(points.y)), len(points.wheel_y)
+    nodes = points.wheel_y[points.wheel_rows.index[first] % my]
+    s = (points.wheel_rows.weight[first] * nodes).sum(axis=1)
+    touch, normal = geometry.wheel.point_and_normal(geometry.touch.wheel_s)
+    c = geometry.wheel.point(s)
+    return TreadLines(c[:, 0], -(c - touch) @ normal)
 
 
 def candidate_list(wheel: WheelFlexibility, geometry: Geometry | None = None) -> CandidateList:

@@ -5,12 +5,15 @@
 
 from contactstudy.irregularity.bands import band_deviations
 from contactstudy.irregularity.chosen import Irregularity
+from contactstudy.irregularity.defective import DefectiveProfile, even, with_defects
+from contactstudy.irregularity.depth_map import DepthMap
 from contactstudy.irregularity.estimate import (
     nominal_centre,
     spectral_estimate,
     third_octave_levels,
 )
 from contactstudy.irregularity.fade import faded
+from contactstudy.irregularity.flats import Flat, RoundedFlat, TreadLines
 from contactstudy.irregularity.measured import MeasuredProfile, measured_profile
 from contactstudy.irregularity.profile import (
     HarmonicProfile,
@@ -20,19 +23,32 @@ from contactstudy.irregularity.profile import (
     check_repeat,
 )
 from contactstudy.irregularity.psd import Convention
+from contactstudy.irregularity.rail_defects import Corrugation, DippedJoint, Step, Weld
 from contactstudy.irregularity.sample import sample_profile
 from contactstudy.irregularity.spectra import fra, german, paper_spectrum, spectrum, tbt3352
+from contactstudy.irregularity.wheel_defects import OutOfRound
 
 __all__ = [
     "Convention",
+    "Corrugation",
+    "DefectiveProfile",
+    "DepthMap",
+    "DippedJoint",
+    "Flat",
     "HarmonicProfile",
     "Irregularity",
     "MeasuredProfile",
+    "OutOfRound",
     "Profile",
     "RepeatWarning",
+    "RoundedFlat",
     "SmoothRail",
+    "Step",
+    "TreadLines",
+    "Weld",
     "band_deviations",
     "check_repeat",
+    "even",
     "faded",
     "fra",
     "german",
@@ -44,4 +60,5 @@ __all__ = [
     "spectrum",
     "tbt3352",
     "third_octave_levels",
+    "with_defects",
 ]

@@ -4,13 +4,15 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-import numpy as np
-
+from contactstudy.irregularity.defective import with_defects
+from contactstudy.irregularity.flats import WheelDefect
 from contactstudy.irregularity.measured import Interpolation, MeasuredProfile, measured_profile
 from contactstudy.irregularity.profile import HarmonicProfile, Profile, SmoothRail
 from contactstudy.irregularity.psd import Spectrum
+from contactstudy.irregularity.rail_defects import RAIL_DEFECTS, RailDefect
 from contactstudy.irregularity.sample import sample_profile
 from contactstudy.irregularity.spectra import NAMES, paper_spectrum, spectrum
+from contactstudy.irregularity.wheel_defects import WHEEL_DEFECTS
 from contactstudy.validation import (
     Above,
     AtLeast,
@@ -38,7 +40,10 @@ _CSV = (
 
 @dataclass(frozen=True)
 class Irregularity(Parameters):
-    """Vertical level of the running surface, up positive; `profile` is what the solvers take."""
+    """Vertical level of the running surface, up positive; `profile` is what the solvers take.
+
+    Defects come on top of it, and are not faded in, but for a wheel that is not round.
+    """
 
     spectrum: Annotated[
         Literal[
@@ -86,6 +91,8 @@ class Irregularity(Parameters):
         tuple[float, float], Unit("m"), Above(0), "shortest and longest wavelength that is kept"
     ] = (2.5, 42.0)
     interpolation: Annotated[Interpolation, _MEASURED, "between the positions"] = "cubic"
+    rail_defect: Annotated[RailDefect | None, RAIL_DEFECTS] = None
+    wheel_defect: Annotated[WheelDefect | None, WHEEL_DEFECTS] = None
 
     def problems(self, key: Naming) -> list[str]:
         """Ranges that fall, and a measured level without file or column."""
@@ -114,6 +121,11 @@ class Irregularity(Parameters):
         return self.file if self.spectrum == "measured" else self.measured_overlay
 
     @property
+    def defects(self) -> tuple[str, str]:
+        """Names of the defects of rail and wheel."""
+        return RAIL_DEFECTS.name(self.rail_defect), WHEEL_DEFECTS.name(self.wheel_defect)
+
+    @property
     def generated(self) -> bool:
         """Whether the profile is made from a spectrum."""
         return self.spectrum in NAMES
@@ -132,21 +144,40 @@ class Irregularity(Parameters):
         return found.read(self.sides)
 
     def profile(
-        self, direction: Literal["Z", "Y"] = "Z", required: tuple[float, float] | None = None
+        self,
+        direction: Literal["Z", "Y"] = "Z",
+        required: tuple[float, float] | None = None,
+        radius: float = 0.43,
+        touch: float = 0.0,
     ) -> Profile:
         """The profile, as a function of X.
 
-        In direction "Y" it is the seed's independent transverse one. ``InputError`` when a
-        measured file cannot be used or does not cover the required range of X [m].
+        In direction "Y" it is the seed's independent transverse one, without defects.
+
+        Parameters
+        ----------
+        radius : float
+            Of the wheel that has a defect [m].
+        touch : float
+            Where it touches the rail, y on its profile [m].
+
+        Raises
+        ------
+        InputError
+            When a measured file cannot be used or does not cover the required range of X [m], or
+            when a depth map cannot be used.
         """
+        even = self._even(direction, required)
+        if direction == "Y" or not (self.rail_defect or self.wheel_defect):
+            return even
+        return with_defects(even, self.rail_defect, self.wheel_defect, radius, touch)
+
+    def _even(self, direction: Literal["Z", "Y"], required: tuple[float, float] | None) -> Profile:
+        """The profile without defects."""
         if self.spectrum == "smooth":
             return SmoothRail()
         if self.spectrum == "sinusoid":
-            return HarmonicProfile(
-                np.array([self.amplitude]),
-                np.array([2.0 * np.pi / self.wavelength]),
-                np.array([self.phase]),
-            )
+            return HarmonicProfile.wave(self.amplitude, self.wavelength, self.phase)
         if self.spectrum == "measured":
             return self.measured(self.wavelengths, required)
         which: Literal["vertical", "transverse"] = "vertical" if direction == "Z" else "transverse"

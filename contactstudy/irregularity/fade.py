@@ -7,6 +7,7 @@ from numpy.typing import ArrayLike
 
 from contactstudy.arrays import Array
 from contactstudy.exceptions import InputError
+from contactstudy.irregularity.defective import DefectiveProfile
 from contactstudy.irregularity.profile import Profile, check_derivative
 
 
@@ -58,7 +59,10 @@ def faded(profile: Profile, start: float, length: float) -> Profile:
     """Profile multiplied by a quintic smoothstep from 0 at ``start`` to 1 ``length`` later.
 
     Both in m; a length of 0 leaves the profile as it is, a negative one is an ``InputError``.
+    Defects are not faded; one that lies before the end of the fade-in is an ``InputError``.
     """
     if not length >= 0.0 or not np.isfinite(length):
         raise InputError(f"fade-in length is {length} m; allowed: 0 m or more")
+    if isinstance(profile, DefectiveProfile):
+        return profile.fading(faded(profile.even, start, length), start + length)
     return profile if length == 0.0 else FadedProfile(profile, start, length)

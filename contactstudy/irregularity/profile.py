@@ -85,6 +85,11 @@ class HarmonicProfile:
                 f"lists of at least one number; their shapes are {sorted(shapes)}"
             )
 
+    @classmethod
+    def wave(cls, amplitude: float, wavelength: float, phase: float = 0.0) -> "HarmonicProfile":
+        """One cosine of given amplitude [m], wavelength [m] and phase at X = 0 [rad]."""
+        return cls(np.array([amplitude]), np.array([2.0 * np.pi / wavelength]), np.array([phase]))
+
     @cached_property
     def spacing(self) -> float | None:
         """Common distance of the wavenumbers [rad/m]; None if they are not equally spaced."""

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING
 
 from contactstudy.contact.press import PRESS_LOADS
 from contactstudy.contact.surface_contact import SurfaceContact
-from contactstudy.contact.surface_coupling import SurfaceCoupling, WheelPath
+from contactstudy.contact.surface_coupling import SurfaceCoupling
+from contactstudy.contact.wheel_path import WheelPath
 from contactstudy.dynamics.stepper import Integrator, average_acceleration
-from contactstudy.irregularity import Profile
+from contactstudy.irregularity import DefectiveProfile, Profile
 from contactstudy.solvers.at_rest import geometry_press
 from contactstudy.solvers.journey import Journey
 from contactstudy.solvers.observers import Observer
@@ -44,7 +45,8 @@ def surface_contact(
         With one wheel.
     irregularity : Profile
         r(X), positive raises the running surface, uniform across the rail; faded in from the
-        wheel's start. It is evaluated at every contact point's own X.
+        wheel's start. It is evaluated at every contact point's own X; a defect of the wheel at
+        every contact point.
     observers : sequence of Observer
         Watch the run, and may add to its dataset: `solvers.observers.ReportProgress`,
         `solvers.instants.Instants`, `solvers.frames.Frames`.
@@ -104,11 +106,19 @@ def surface_contact(
 
 def surface_coupling(passage: Passage[MeshedTrack], contact: SurfaceContact) -> SurfaceCoupling:
     """Join a wheel's contact points to all positions of a passage, its modes in the vehicle."""
-    positions, profile = passage.positions, passage.faded(0)
+    positions, profile, x = passage.positions, passage.faded(0), contact.points.x
+    path = WheelPath(positions[:, 0], profile(positions + x))
+    if isinstance(profile, DefectiveProfile) and (wheel := profile.wheel) is not None:
+        lines = contact.lines
+        path = WheelPath(
+            positions[:, 0],
+            profile.without_wheel(positions + x),
+            lambda X: wheel.level(X + x, lines),
+        )
     return SurfaceCoupling(
         passage.track,
         contact.moving(int(passage.wheel_dofs[0]), passage.n_dofs),
-        WheelPath(positions[:, 0], profile(positions + contact.points.x)),
+        path,
         contact.candidates,
         contact.enforcement,
     )

@@ -8,7 +8,8 @@ from scipy.optimize import nnls
 
 from contactstudy.contact.augmented import Penalty
 from contactstudy.contact.moving_wheel import MovingWheel
-from contactstudy.contact.surface_coupling import SurfaceCoupling, WheelPath
+from contactstudy.contact.surface_coupling import SurfaceCoupling
+from contactstudy.contact.wheel_path import WheelPath
 from contactstudy.dynamics.banded import Factor
 from contactstudy.exceptions import NumericalError
 from contactstudy.geometry.facets import tread_candidates

@@ -6,6 +6,9 @@ from collections.abc import Mapping
 from typing import Any
 
 from contactstudy.exceptions import InputError
+from contactstudy.irregularity import Irregularity
+from contactstudy.irregularity.depth_map import DepthMap
+from contactstudy.irregularity.flats import LocalDefect
 from contactstudy.profiles.wheel_file import wheel_dimensions, wheel_sections
 from contactstudy.solvers.journey import Journey
 from contactstudy.study.kinds.passage.runs import PointRun, Run
@@ -23,6 +26,7 @@ _SLACK = 1e-9  # relative, for lengths that were given in decimal
 def combined(tables: Mapping[str, Any], runs: Mapping[str, Run]) -> list[str]:
     """Complaints about values that are fine alone; tables that failed are left out."""
     problems: list[str] = []
+    irregularity: Irregularity | None = tables.get("irregularity")
     track: Track | None = tables.get("track")
     journey: Journey | None = tables.get("journey")
     vehicle: WheelColumn | BareWheel | None = tables.get("vehicle")
@@ -37,6 +41,8 @@ def combined(tables: Mapping[str, Any], runs: Mapping[str, Run]) -> list[str]:
                 problems += journey.problems_of_step(f"runs.{name}.time_step", run.time_step)
         if track is not None:
             problems += journey.problems_on(track, key=naming(Journey, "journey"))
+        if irregularity is not None and runs and vehicle is not None:
+            problems += _defects(irregularity, journey, vehicle.wheel_radius)
     if solid is None:
         return problems
     meshed = any(run.needs_solid for run in runs.values())
@@ -52,9 +58,49 @@ def combined(tables: Mapping[str, Any], runs: Mapping[str, Run]) -> list[str]:
             problems += _wheelset(solid, wheelset, track, vehicle)
     if scan is not None and scan.used and solid.half:
         problems.append('scan: applies only with solid.section = "whole" (here "half")')
+    if irregularity is not None and meshed and solid.half:
+        problems += _mirrored(irregularity)
     if journey is not None and meshed:
         problems += _solid_on_journey(solid, journey)
     return problems
+
+
+def _defects(irregularity: Irregularity, journey: Journey, radius: float) -> list[str]:
+    """Defects that lie in the fade-in, where they would be in full, or are never met."""
+    rail, wheel = irregularity.rail_defect, irregularity.wheel_defect
+    places, problems = dict[str, tuple[float, float]](), list[str]()
+    if rail is not None:
+        places["rail_defect_at"] = rail.at, rail.half_length
+    try:
+        if isinstance(wheel, LocalDefect):
+            places["wheel_defect_at"] = wheel.at, wheel.half_length(radius)
+    except InputError as error:
+        problems = [f"irregularity.wheel_defect_file: {problem}" for problem in error.problems]
+    end = journey.start + journey.fade_in
+    return problems + [
+        complaint(
+            f"irregularity.{key}",
+            at,
+            f"must be {end + reach:.6g} to {journey.end:g} m: behind the fade-in with the whole "
+            "defect, and met",
+        )
+        for key, (at, reach) in places.items()
+        if not end + reach - _SLACK <= at <= journey.end
+    ]
+
+
+def _mirrored(irregularity: Irregularity) -> list[str]:
+    """A depth map that a half section cannot have."""
+    wheel = irregularity.wheel_defect
+    try:
+        if not isinstance(wheel, DepthMap) or wheel.read.mirrored:
+            return []
+    except InputError:
+        return []  # complained about
+    return [
+        "irregularity.wheel_defect_file: the map is not the same at y and -y; needs "
+        'solid.section = "whole" (here "half")'
+    ]
 
 
 def _wheel(solid: Solid, radius: float) -> list[str]:

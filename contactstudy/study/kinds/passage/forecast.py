@@ -12,7 +12,8 @@ from contactstudy.exceptions import InputError
 from contactstudy.reporter import Reporter
 from contactstudy.solids.cache import is_cached
 from contactstudy.study.kinds.passage import build, contact
-from contactstudy.study.kinds.passage.roughness import deviations, irregularity_of
+from contactstudy.study.kinds.passage.level import deviations
+from contactstudy.study.kinds.passage.roughness import irregularity_of
 from contactstudy.study.kinds.passage.runs import PointRun
 from contactstudy.study.kinds.passage.schema import Study
 from contactstudy.study.kinds.passage.twins import untwinned

@@ -38,7 +38,7 @@ def read_inputs(study: Study) -> Inputs:
     """
     described = describe(study)
     config = study.config()
-    for key in ("file", "measured_overlay"):
+    for key in ("file", "measured_overlay", "wheel_defect_file"):
         if config["irregularity"].get(key):  # the content counts, and paths are the machine's
             config["irregularity"][key] = Path(config["irregularity"][key]).name
     files = dict(described.files)

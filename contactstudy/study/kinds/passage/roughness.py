@@ -13,10 +13,11 @@ from contactstudy import irregularity as irr
 from contactstudy.exceptions import InputError
 from contactstudy.files import file_digest
 from contactstudy.irregularity.shown import IrregularityInfo, Level, SpectrumCurve
+from contactstudy.study.kinds.passage.level import sampled
+from contactstudy.study.kinds.passage.placing import geometry
 from contactstudy.study.kinds.passage.schema import Study
 from contactstudy.track.model import Direction
 
-PROFILE_STEP = 0.01  # m, of the profile drawn in Fig. 1b
 MOST_LEFT_OUT = 0.5  # of a record's variance, by wavelengths that nobody stated
 CURVE_POINTS = 400  # of a spectrum's formula
 
@@ -35,23 +36,24 @@ class Described:
 
     @cached_property
     def files(self) -> dict[str, str]:
-        """Name of each measured file -> SHA-256 of its content."""
-        if not self.measured:
-            return {}
-        path = Path(self.study.irregularity.measured_file)
-        return {path.name: file_digest(path)}
+        """Name of each file -> SHA-256 of its content."""
+        table = self.study.irregularity
+        names = [table.measured_file] if self.measured else []
+        if isinstance(table.wheel_defect, irr.DepthMap):
+            names.append(table.wheel_defect.file)
+        return {Path(name).name: file_digest(Path(name)) for name in names}
 
     @cached_property
     def info(self) -> IrregularityInfo:
         """What Fig. 1 shows."""
         table = self.study.irregularity
-        smooth = table.spectrum == "smooth"
+        smooth = isinstance(self.profile, irr.SmoothRail)
         formula = table.generated or table.spectrum == "measured"
         measured, level = _measured_info(table, *self.measured) if self.measured else (None, None)
         return IrregularityInfo(
             spectrum=_curve(table) if formula else None,
-            estimate=_estimate(table, self.profile) if table.generated else None,
-            profile=None if smooth else _sampled(self.study, self.profile),
+            estimate=_estimate(table, irr.even(self.profile)) if table.generated else None,
+            profile=None if smooth else sampled(self.study, self.profile),
             measured=measured if measured and np.any(measured.density) else None,
             measured_profile=level,
         )
@@ -71,7 +73,11 @@ def irregularity_of(study: Study, smooth: bool = False, direction: Direction = "
     if smooth:
         return irr.SmoothRail()
     required = (study.journey.start, study.journey.end) if study.runs else None
-    return study.irregularity.profile(direction, required)
+    touch = 0.0
+    if study.irregularity.wheel_defect is not None and not study.solid.half:
+        placed = geometry(study)
+        touch = float(placed.wheel.point(placed.touch.wheel_s)[0])
+    return study.irregularity.profile(direction, required, study.vehicle.wheel_radius, touch)
 
 
 def describe(study: Study) -> Described:
@@ -138,7 +144,7 @@ def _unsettled(study: Study, profile: irr.MeasuredProfile) -> list[str]:
 def is_zero(study: Study, profile: irr.Profile) -> bool:
     """Whether an irregularity that is asked for is zero wherever the wheel may be."""
     table = study.irregularity
-    return table.spectrum != "smooth" and not np.any(_sampled(study, profile).level)
+    return table.spectrum != "smooth" and not np.any(sampled(study, profile).level)
 
 
 def _curve(table: irr.Irregularity) -> SpectrumCurve:
@@ -164,26 +170,6 @@ def _estimate(table: irr.Irregularity, profile: irr.Profile) -> SpectrumCurve:
     inside = (estimate.wavenumber >= low) & (estimate.wavenumber <= high)
     label = f"generated profile, seed {table.seed}"
     return SpectrumCurve(label, estimate.wavenumber[inside], estimate.density[inside], table.band)
-
-
-def _sampled(study: Study, profile: irr.Profile) -> Level:
-    low, high = profile.domain
-    start, end = max(low, 0.0), min(high, study.track.length)
-    table, step, label = study.irregularity, PROFILE_STEP, "measured profile"
-    if table.spectrum == "sinusoid":
-        step = min(step, table.wavelength / 20)
-        label = f"sinusoid, {1e3 * table.wavelength:.4g} mm"
-    elif table.spectrum != "measured":
-        label = f"{table.spectrum.replace('_', ' ')}, seed {table.seed}"
-    position = np.linspace(start, end, max(2, round((end - start) / step) + 1))
-    return Level(label, position, profile(position), deviations(table, profile))
-
-
-def deviations(table: irr.Irregularity, profile: irr.Profile) -> str:
-    """Standard deviation of a generated profile in the bands of EN 13848, "" for any other."""
-    if not (table.generated and isinstance(profile, irr.HarmonicProfile)):
-        return ""
-    return ", ".join(map(str, irr.band_deviations(profile, table.band)))
 
 
 def _measured_info(
