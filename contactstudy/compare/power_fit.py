@@ -96,7 +96,11 @@ def _fit(h: Array, f: Array, weights: Array, p: float, parameters: int) -> Power
         x = h / h[0]
         jacobian = np.column_stack([np.ones_like(x), x**p, gain * x**p * np.log(x)])
         jacobian *= np.sqrt(weights / weights.mean())[:, None]
-        order_error = deviation * float(np.sqrt(np.linalg.pinv(jacobian.T @ jacobian)[2, 2]))
+        # the columns are of very different size: scaled, so that none counts as rounding
+        size = np.linalg.norm(jacobian, axis=0)
+        order_error = (
+            deviation * float(np.linalg.norm(np.linalg.pinv(jacobian / size)[2])) / size[2]
+        )
     return PowerFit(p, order_error, limit, gain, deviation, float(f[0]) - limit - gain)
 
 

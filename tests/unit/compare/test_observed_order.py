@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from scipy.optimize import curve_fit
 
 from contactstudy.compare.refinement import convergence
 from contactstudy.exceptions import InputError
@@ -31,6 +32,24 @@ def test_units_of_size_and_value_do_not_matter():
     assert other.order == pytest.approx(plain.order, rel=1e-8)
     assert other.index == pytest.approx(plain.index, rel=1e-6)
     assert other.verdict == plain.verdict == "asymptotic"
+
+
+@pytest.mark.parametrize("gain", [2.0, 2e-6, 2e-10])
+def test_standard_error_does_not_depend_on_how_small_the_differences_are(gain):
+    """Beside scipy's curve_fit, which takes the Jacobian by differences, of a series by hand."""
+    sizes = np.array([0.5, 0.25, 0.125, 0.0625, 0.03125])
+    bent = sizes**2 + np.array([0.01, -0.004, 0.003, -0.002, 0.001])
+    result = convergence(sizes, 1.0 + gain * bent, floor=1e-14)
+
+    def power(h, limit, factor, p):
+        return limit + factor * h**p
+
+    for weights in (None, sizes**0.5):
+        found, covariance = curve_fit(power, sizes, bent, p0=(0.0, 1.0, 2.0), sigma=weights)
+        if found[2] == pytest.approx(result.order, rel=1e-4):
+            assert result.order_error == pytest.approx(covariance[2, 2] ** 0.5, rel=1e-3)
+            return
+    pytest.fail(f"neither fit has the order {result.order}")
 
 
 def test_noise_is_told_by_the_standard_error():
