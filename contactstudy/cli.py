@@ -5,6 +5,7 @@ Exit status 0, 1 (broke down, or a check fails), 2 (input), 130 (interrupted).
 
 from __future__ import annotations
 
+import io
 import os
 import signal
 import sys
@@ -303,6 +304,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line (of `arguments`, else ``sys.argv``); returns the exit status."""
     # before anything loads a BLAS: bytes, and small problems' speed, depend on its threads
     os.environ.update(ONE_THREAD)
+    os.environ["MPLBACKEND"] = "agg"  # no notebook's, whatever the environment says
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):  # a console without our characters shows "?"
+            stream.reconfigure(errors="replace")
     tokens = list(sys.argv[1:] if arguments is None else arguments)
     if (
         signal.getsignal(signal.SIGINT) is signal.SIG_IGN

@@ -30,7 +30,11 @@ class Compiled:
         for name in self._function.__code__.co_names:
             if isinstance(known.get(name), Compiled):  # numba must find its own there
                 known[name] = known[name].compiled
-        found: Callable[..., Any] = njit(cache=True, **self._options)(self._function)
+        found: Callable[..., Any]
+        try:
+            found = njit(cache=True, **self._options)(self._function)
+        except RuntimeError:  # no folder to keep it in, neither beside the code nor the user's
+            found = njit(**self._options)(self._function)
         if known.get(self._function.__name__) is self:  # its own module need not ask again
             known[self._function.__name__] = found
         return found

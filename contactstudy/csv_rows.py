@@ -1,11 +1,13 @@
 """Rows of a CSV file with their line numbers, and how its faults are listed."""
 
 import csv
+import io
 import math
 import re
 from pathlib import Path
 
 from contactstudy.exceptions import InputError
+from contactstudy.given_files import file_text
 
 _SHOWN = 10  # faults of one kind that are listed before "and n more"
 
@@ -15,18 +17,12 @@ def read_rows(path: Path) -> list[tuple[int, list[str]]]:
 
     ``InputError`` if the file cannot be read, or is empty.
     """
+    text = file_text(path, "CSV")
     try:
-        with path.open(newline="", encoding="utf-8-sig") as file:
-            reader = csv.reader(file)
-            rows = [(reader.line_num, cells) for cells in reader if any(c.strip() for c in cells)]
-    except FileNotFoundError:
-        raise InputError(f"{path}: there is no such file") from None
-    except UnicodeDecodeError:
-        raise InputError(f"{path}: this is not a text file; allowed: CSV in UTF-8") from None
+        reader = csv.reader(io.StringIO(text, newline=""))
+        rows = [(reader.line_num, cells) for cells in reader if any(c.strip() for c in cells)]
     except csv.Error as error:
         raise InputError(f"{path}: this is not a CSV file ({error})") from None
-    except OSError as error:
-        raise InputError(f"{path}: the file cannot be read ({error.strerror})") from None
     if not rows:
         raise InputError(f"{path}: the file is empty; allowed: a header line and numbers")
     return rows

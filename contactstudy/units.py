@@ -25,8 +25,10 @@ def _registry() -> pint.UnitRegistry:
 
 
 # "65 MN/m", "-1.5e-3 kN·s/m", "5e-5": a number, then perhaps a unit. Nothing else is evaluated.
-_TEXT = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*")
-_UNIT = re.compile(r"[A-Za-zµμΩ°%0-9*/^·.()\- ]*")
+_TEXT = re.compile(r"\s*([+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)\s*(.*?)\s*")
+# Names with perhaps one power of one digit each, multiplied or divided: nothing to compute.
+_UNIT = re.compile(r"(?:[A-Za-zµμΩ°%]++(?:(?:\^|\*\*)-?[0-9](?![0-9.]))?+|1(?=/)|[*/·() ])*+")
+_LONGEST = 200  # characters of a quantity
 
 
 def to_si(value: Any, unit: str) -> float:
@@ -57,7 +59,7 @@ def to_si(value: Any, unit: str) -> float:
 
 
 def _split(value: str, example: str) -> tuple[float, str]:
-    match = _TEXT.fullmatch(value)
+    match = _TEXT.fullmatch(value) if len(value) <= _LONGEST else None
     if match is None or not _UNIT.fullmatch(match[2]):
         raise UnitError(f"must be {example}")
     return float(match[1]), match[2]

@@ -4,6 +4,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Literal
 
+from contactstudy.given_files import is_file
 from contactstudy.profiles.curve import ProfileCurve, joined
 from contactstudy.profiles.rail import running_surface
 from contactstudy.profiles.wheel import wheel_profile
@@ -61,7 +62,7 @@ def _is_file(name: str) -> bool:
 def _worn(name: str, body: Literal["rail", "wheel"]) -> ProfileCurve:
     path = Path(name)
     # a file that has changed is read again
-    return _read(path, body, path.stat().st_mtime_ns if path.is_file() else 0)
+    return _read(path, body, path.stat().st_mtime_ns if is_file(path) else 0)
 
 
 @lru_cache(maxsize=16)

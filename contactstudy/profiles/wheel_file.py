@@ -1,13 +1,12 @@
 """Cross-section files of wheels, like ``meshes/wheels/straight_860.toml``."""
 
-import hashlib
-import tomllib
 from collections.abc import Mapping
-from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
 from contactstudy.exceptions import InputError
+from contactstudy.files import file_digest
+from contactstudy.given_files import is_file, toml_file
 from contactstudy.profiles.wheel_body import WheelDimensions
 from contactstudy.resources import resource
 
@@ -53,12 +52,13 @@ def wheel_dimensions(section: str = DEFAULT) -> WheelDimensions:
                 "a file ending in .toml"
             )
         path = shipped[section]
-    try:
-        content = path.read_bytes()
-    except OSError as error:
-        reason = error.strerror or str(error)
-        raise InputError(f"wheel section {section}: cannot be read ({reason})") from error
-    return _parsed(section, content)
+    values, problems = _values(toml_file(path))
+    if not problems:
+        try:
+            return WheelDimensions(**values)
+        except InputError as error:
+            problems = list(error.problems)
+    raise InputError([f"wheel section {section}: {problem}" for problem in problems])
 
 
 def wheel_sections() -> dict[str, Path]:
@@ -69,22 +69,7 @@ def wheel_sections() -> dict[str, Path]:
 def named_file_digest(path: str) -> str:
     """SHA-256 of a file's content; "" if there is no such file (a shipped name)."""
     file = Path(path)
-    return hashlib.sha256(file.read_bytes()).hexdigest() if file.is_file() else ""
-
-
-@lru_cache(maxsize=8)
-def _parsed(section: str, content: bytes) -> WheelDimensions:
-    try:
-        data = tomllib.loads(content.decode("utf-8"))
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise InputError(f"wheel section {section}: is not TOML ({error})") from error
-    values, problems = _values(data)
-    if not problems:
-        try:
-            return WheelDimensions(**values)
-        except InputError as error:
-            problems = list(error.problems)
-    raise InputError([f"wheel section {section}: {problem}" for problem in problems])
+    return file_digest(file) if is_file(file) else ""
 
 
 def _values(data: Mapping[str, Any]) -> tuple[dict[str, Any], list[str]]:

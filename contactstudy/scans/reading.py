@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -9,6 +10,7 @@ import numpy as np
 
 from contactstudy.arrays import Array, IntArray
 from contactstudy.exceptions import InputError
+from contactstudy.given_files import file_content
 from contactstudy.profiles.worn import Body
 from contactstudy.scans.faults import faults
 
@@ -64,20 +66,42 @@ def _triangles(file: Path) -> tuple[Array, IntArray]:
 
     if file.suffix.lower() not in SUFFIXES:
         raise InputError(f"{file}: not a scan by its name; allowed: {', '.join(SUFFIXES)}")
-    if not file.is_file():
-        raise InputError(f"{file}: there is no such file")
+    content, form = file_content(file), file.suffix[1:].lower()
+    if form == "stl" and (fault := _stl_fault(content)):
+        raise InputError(f"{file}: {fault}")
     try:
         with np.errstate(all="ignore"):  # what is not a number is looked for below
-            loaded = trimesh.load_scene(file, process=False)
+            # from memory, so that no file that it refers to is opened
+            loaded = trimesh.load_scene(io.BytesIO(content), file_type=form, process=False)
             mesh = loaded.to_geometry() if len(loaded.geometry) else None
     except Exception as error:  # every reader of trimesh has its own kinds
-        reason = str(error) or type(error).__name__
         raise InputError(
-            f"{file}: cannot be read as {file.suffix[1:].upper()} ({reason})"
+            f"{file}: cannot be read as {form.upper()} (damaged, cut short, or another format?)"
         ) from error
     if not isinstance(mesh, trimesh.Trimesh) or len(mesh.faces) == 0:
         raise InputError(f"{file}: has no triangles; a scan must be triangulated, not points alone")
     return np.asarray(mesh.vertices, dtype=float), np.asarray(mesh.faces, dtype=np.int64)
+
+
+_HEADER, _TRIANGLE = 84, 50  # bytes of a binary STL
+
+
+def _stl_fault(content: bytes) -> str:
+    """What is wrong with the size of an STL file, "" where nothing is."""
+    count = int.from_bytes(content[_HEADER - 4 : _HEADER], "little")
+    asked = _HEADER + count * _TRIANGLE
+    if len(content) >= _HEADER and len(content) == asked:
+        return ""
+    if content.lstrip()[:5].lower() == b"solid" and b"facet" in content[:2000].lower():
+        ended = b"endsolid" in content[-2000:].lower()
+        return "" if ended else "text STL without 'endsolid' at its end (cut short?)"
+    if len(content) < _HEADER:
+        return f"{len(content)} bytes are no STL; a binary one has a header of {_HEADER} bytes"
+    why = "cut short?" if len(content) < asked else "bytes behind the last triangle?"
+    return (
+        f"binary STL of {len(content)} bytes; its header asks for {asked}, of {count} triangles "
+        f"({why})"
+    )
 
 
 def _joined(vertices: Array, faces: IntArray) -> trimesh.Trimesh:

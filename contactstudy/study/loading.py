@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import tomllib
 from copy import deepcopy
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from contactstudy.exceptions import InputError
+from contactstudy.given_files import is_file, toml_file
 from contactstudy.resources import resource
 from contactstudy.study.axes.keys import TABLES, apply_quick
 from contactstudy.study.axes.swept import Source, Swept
@@ -35,7 +35,7 @@ def find_study(study: str | Path) -> Path:
     if not isinstance(study, str | Path):
         raise InputError(f"study = {study!r}: must be a file or the name of a shipped study")
     path, name = Path(study), str(study)
-    if path.is_file():
+    if is_file(path):
         return path
     shipped = shipped_studies()
     stem = name.removesuffix(".toml")
@@ -84,12 +84,7 @@ def load_study(
         Listing every problem: unknown keys, wrong units, impossible values.
     """
     path = find_study(study)
-    try:
-        data = tomllib.loads(path.read_text("utf-8"))
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise InputError(f"{path}: is not a TOML file ({error})") from error
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read ({error.strerror})") from error
+    data = toml_file(path)
     kind = kind_of_file(data)
     main = main if main is not None and main.kind == kind.name else None
     given, problems = read_texts(overrides, "--set", kind.tables, kind.inner_tables)

@@ -103,7 +103,9 @@ def _value(text: str) -> Any:
     """Read `text` as a TOML value, else take it, or what stands in its brackets, as text."""
     try:
         parsed = tomllib.loads(f"value = {text}")
-    except tomllib.TOMLDecodeError:
+    except RecursionError:
+        return text  # more brackets than any value has
+    except ValueError:  # no TOML, or a number of thousands of digits
         if text.startswith("[") and text.endswith("]"):
             return [_value(part.strip()) for part in text[1:-1].split(",")]
         return text

@@ -4,6 +4,8 @@ import difflib
 from collections.abc import Iterable, Sequence
 from typing import Any
 
+_SHOWN = 300  # characters of a value
+
 
 def did_you_mean(given: str, allowed: Iterable[str]) -> str:
     """`` (did you mean 'x'?)`` for close matches among `allowed`, else an empty text."""
@@ -20,8 +22,11 @@ def unknown(path: str, key: str, allowed: Sequence[str]) -> str:
 
 def complaint(path: str, value: Any, allowed: str) -> str:
     """``path = value: allowed``, the form of every complaint about a value."""
-    shown = f'"{value}"' if isinstance(value, str) else f"{value}"
-    return f"{path} = {shown}: {allowed}"
+    try:
+        shown = f'"{value}"' if isinstance(value, str) else f"{value}"
+    except ValueError:  # Python shows no integers of thousands of digits
+        shown = "a number of thousands of digits"
+    return f"{path} = {shown if len(shown) <= _SHOWN else shown[:_SHOWN] + '...'}: {allowed}"
 
 
 def any_of(names: Iterable[str], last: str = " or ") -> str:

@@ -17,6 +17,7 @@ ORDER = (
         "csv_rows",
         "resources",
         "files",
+        "given_files",
         "version",
         "code",
         "compiled",

@@ -116,7 +116,7 @@ def test_files_that_cannot_be_read(tmp_path):
     with pytest.raises(InputError, match="cannot be read"):
         measured_profile(tmp_path, "level_mm", "mm")
     (tmp_path / "binary.csv").write_bytes(b"\x89PNG\r\n\xff\xfe\x00")
-    with pytest.raises(InputError, match="not a text file"):
+    with pytest.raises(InputError, match="not a CSV file"):
         measured_profile(tmp_path / "binary.csv", "level_mm", "mm")
 
 

@@ -1,8 +1,13 @@
 """Scan files: formats, units, and every fault with its message, all at once."""
 
+import builtins
+import io
+
 import numpy as np
 import pytest
 import trimesh
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from contactstudy.exceptions import InputError
 from contactstudy.profiles.named import rail_curve, wheel_curve
@@ -161,3 +166,43 @@ def test_loose_flipped_triangles_are_found_on_the_fitted_surface(tmp_path):
     path = written(tmp_path, changed(RAIL, faces, vertices), 1.0, "loose.ply")
     (problem,) = problems_of(read_scan, path, "m", "rail")
     assert "1 flipped triangle on the running surface" in problem
+
+
+@settings(max_examples=60, deadline=None)
+@given(at=st.integers(0, 10**7), padded=st.booleans(), text=st.booleans())
+def test_a_cut_or_padded_stl_is_named_as_such(tmp_path_factory, at, padded, text):
+    path = tmp_path_factory.mktemp("stl") / "scan.stl"
+    whole = RAIL.export(file_type="stl_ascii" if text else "stl")
+    whole = whole.encode() if text else whole
+    cut = whole + b"\0" * (1 + at % 999) if padded and not text else whole[: at % (len(whole) - 10)]
+    path.write_bytes(cut)
+    (problem,) = problems_of(read_mesh, path, "m", "rail")
+    if text:
+        assert "text STL without 'endsolid'" in problem or "are no STL" in problem, problem
+        return
+    if len(cut) < 84:
+        assert f"{len(cut)} bytes are no STL" in problem
+        return
+    reason = "bytes behind the last triangle?" if len(cut) > len(whole) else "cut short?"
+    assert problem.endswith(
+        f"binary STL of {len(cut)} bytes; its header asks for {len(whole)}, of {len(RAIL.faces)} "
+        f"triangles ({reason})"
+    )
+
+
+def test_an_obj_opens_no_other_file(tmp_path, monkeypatch):
+    path = written(tmp_path, RAIL, 1.0, "rail.obj")
+    secret = tmp_path / "m.mtl"
+    secret.write_text("newmtl a\nmap_Kd ../../../etc/passwd\n", "utf-8")
+    path.write_text(f"mtllib m.mtl\nusemtl a\n{path.read_text('utf-8')}", "utf-8")
+    opened = []
+    real = io.open
+
+    def watched(name, *arguments, **keywords):
+        opened.append(str(name))
+        return real(name, *arguments, **keywords)
+
+    monkeypatch.setattr(io, "open", watched)
+    monkeypatch.setattr(builtins, "open", watched)
+    assert len(read_mesh(path, "m", "rail").faces) == len(RAIL.faces)
+    assert not [name for name in opened if "mtl" in name or "passwd" in name]

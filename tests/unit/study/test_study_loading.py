@@ -240,7 +240,7 @@ def test_what_is_no_toml(tmp_path):
     path.write_text("[track\nlength = 3")
     with pytest.raises(InputError, match=r"is not a TOML file .*line 1"):
         load_study(path)
-    path.write_bytes(b"\xff\xfe")
+    path.write_bytes(b"\xff\xfa")
     with pytest.raises(InputError, match="is not a TOML file"):
         load_study(path)
 

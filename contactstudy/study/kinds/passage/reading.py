@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
+from contactstudy.given_files import is_file
 from contactstudy.study.kinds.passage.checks import combined
 from contactstudy.study.kinds.passage.runs import SOLVERS
 from contactstudy.study.kinds.passage.schema import SECTIONS, Study, wrong_reference, wrong_runs
@@ -25,7 +26,7 @@ def load_passage(
     companions = data.get("companions")
     if isinstance(companions, list):
         data["companions"] = [
-            str(path.parent / c) if isinstance(c, str) and (path.parent / c).is_file() else c
+            str(path.parent / c) if isinstance(c, str) and is_file(path.parent / c) else c
             for c in companions
         ]
     for key, table in SECTIONS.items():

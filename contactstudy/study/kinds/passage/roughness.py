@@ -100,7 +100,7 @@ def describe(study: Study) -> Described:
         notes.append(_left_out(table, *measured))
         if table.spectrum == "measured":
             notes += _unsettled(study, measured[1])
-    elif is_zero(study, profile):
+    elif isinstance(profile, irr.HarmonicProfile) and not profile.amplitudes.any():
         notes.append("the irregularity is zero throughout: the rail is smooth")
     described = Described(study, profile, measured, tuple(notes))
     if measured:
@@ -139,12 +139,6 @@ def _unsettled(study: Study, profile: irr.MeasuredProfile) -> list[str]:
         f"{part} is sound, because the band-pass needs the longest wavelength on either side to "
         f"settle; the journey goes from {journey.start:g} to {journey.end:g} m"
     ]
-
-
-def is_zero(study: Study, profile: irr.Profile) -> bool:
-    """Whether an irregularity that is asked for is zero wherever the wheel may be."""
-    table = study.irregularity
-    return table.spectrum != "smooth" and not np.any(sampled(study, profile).level)
 
 
 def _curve(table: irr.Irregularity) -> SpectrumCurve:

@@ -9,6 +9,7 @@ from typing import Annotated, Any, Literal
 
 from contactstudy.exceptions import InputError
 from contactstudy.geometry.pose import Pose
+from contactstudy.given_files import is_file
 from contactstudy.profiles.curve import ProfileCurve
 from contactstudy.scans import Meeting, Scan, meeting, read_scan
 from contactstudy.validation import (
@@ -89,7 +90,7 @@ class ScanFiles(Parameters):
             file, unit = getattr(self, body), getattr(self, f"{body}_unit")
             try:
                 path = Path(file)
-                changed = path.stat().st_mtime_ns if file and path.is_file() else 0
+                changed = path.stat().st_mtime_ns if file and is_file(path) else 0
                 scanned = (file, unit, body, origin, self.smoothing, self.residual_limit)
                 found.append(_read(changed, *scanned) if file else None)
             except InputError as error:
