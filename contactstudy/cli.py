@@ -263,6 +263,7 @@ def cache(
 
 def _run(study: Study, out: Path, jobs: int, quick: bool) -> None:
     from contactstudy.driver import run_study
+    from contactstudy.plot.text import counted
     from contactstudy.study.terminal import TerminalReporter, print_results
 
     with TerminalReporter(_errors()) as reporter:
@@ -270,7 +271,7 @@ def _run(study: Study, out: Path, jobs: int, quick: bool) -> None:
     print_results(results, out, Console())
     if failures := results.failures:
         told = [f"{title}: {reason}" for title, reason in failures.items()]
-        raise ContactStudyError("\n".join([f"{len(told)} variants failed", *told]))
+        raise ContactStudyError("\n".join([f"{counted(len(told), 'variant')} failed", *told]))
 
 
 def _each_its_own(studies: Sequence[Study], folders: Sequence[Path]) -> None:

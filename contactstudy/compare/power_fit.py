@@ -99,7 +99,7 @@ def _fit(h: Array, f: Array, weights: Array, p: float, parameters: int) -> Power
         # the columns are of very different size: scaled, so that none counts as rounding
         size = np.linalg.norm(jacobian, axis=0)
         order_error = (
-            deviation * float(np.linalg.norm(np.linalg.pinv(jacobian / size)[2])) / size[2]
+            deviation * float(np.linalg.norm(np.linalg.pinv(jacobian / size)[2])) / float(size[2])
         )
     return PowerFit(p, order_error, limit, gain, deviation, float(f[0]) - limit - gain)
 

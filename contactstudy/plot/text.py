@@ -10,6 +10,11 @@ def label(name: str) -> str:
     return name.replace("_", " ")
 
 
+def counted(number: int, word: str) -> str:
+    """A number of things: "1 run", "3 runs"."""
+    return f"{number} {word}{'' if number == 1 else 's'}"
+
+
 def capital(text: str) -> str:
     """`text` with its first letter as a capital."""
     return text[:1].upper() + text[1:]

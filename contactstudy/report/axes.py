@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from contactstudy.figures import axes
-from contactstudy.plot.text import capital, label
+from contactstudy.plot.text import capital, counted, label
 from contactstudy.report.blocks import Block, bullets, figure, table, text
 from contactstudy.report.quantity import quantity
 from contactstudy.study.axes.axis import axis_of, title_of
@@ -32,10 +32,12 @@ def abstract(results: StudyResults) -> list[str]:
         ranges = [f"{title_of(key)} ({_values(results, name, key)})" for key in _how(data)]
         what = "refined" if data.attrs["refined"] else "varied"
         verb = "is" if len(ranges) == 1 else "are"
-        told.append(f"{data['variant'].size} variants: {what} {verb} {' and '.join(ranges)}.")
+        told.append(
+            f"{counted(data['variant'].size, 'variant')}: {what} {verb} {' and '.join(ranges)}."
+        )
     lost = len(results.failures)
     if lost:
-        told.append(f"{lost} variants could not be computed; they are left out of all numbers.")
+        told.append(f"{counted(lost, 'variant')} could not be computed, left out of all numbers.")
     verdicts = Counter(
         line.verdict
         for one in shown(results)

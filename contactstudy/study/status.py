@@ -10,6 +10,7 @@ from typing import Any
 
 from contactstudy.exceptions import InputError
 from contactstudy.files import writing
+from contactstudy.plot.text import counted
 from contactstudy.store import ARRAYS, Store
 from contactstudy.study.axes.terminal import duration
 from contactstudy.study.plan import FAILED, RUNS, Plan
@@ -85,10 +86,8 @@ def status(out_dir: Path) -> list[str]:
         ready = "results are written" if written else "results are still to be written"
         return [*told, f"nothing is left to compute; {ready}"]
     seconds = _time_left(pieces) / plan["jobs"]
-    return [
-        *told,
-        f"left: {len(left)} runs, about {duration(seconds)} with {plan['jobs']} at a time",
-    ]
+    long = duration(seconds)
+    return [*told, f"left: {counted(len(left), 'run')}, about {long} with {plan['jobs']} at a time"]
 
 
 def _pieces(folder: Path, study: dict[str, Any]) -> Iterator[_Piece]:

@@ -9,6 +9,7 @@ from rich.box import SIMPLE
 from rich.table import Table
 from rich.text import Text
 
+from contactstudy.plot.text import counted
 from contactstudy.study.axes.dataset import FAILURE
 from contactstudy.study.axes.swept import Swept
 from contactstudy.study.axes.tables import tables
@@ -28,8 +29,8 @@ def check_swept(study: Swept) -> list[str]:
     ]
     seconds = expected_seconds(plan)
     told = f"; about {duration(seconds / 2)} with two at a time" if seconds else ""
-    runs = f"{needed} runs, of which {len(plan.pieces)} differ"
-    return ["with its axes:", *found, f"{len(plan.variants)} variants with {runs}{told}"]
+    runs = f"{counted(needed, 'run')}, of which {len(plan.pieces)} differ"
+    return ["with its axes:", *found, f"{counted(len(plan.variants), 'variant')} with {runs}{told}"]
 
 
 def expected_seconds(plan: Plan) -> float:
@@ -43,7 +44,9 @@ def summary(results: StudyResults) -> list[Table | str]:
     for name, data in results.designs.items():
         failed = int((data[FAILURE] != "").sum())
         good = data["variant"].size - failed
-        made.append(f"{name}: {good} variants" + (f", {failed} failed" if failed else ""))
+        made.append(
+            f"{name}: {counted(good, 'variant')}" + (f", {failed} failed" if failed else "")
+        )
     for found in tables(results):
         table = Table(title=Text(found.title), box=SIMPLE, collapse_padding=True)
         for k, heading in enumerate(found.columns):

@@ -19,7 +19,7 @@ def test_status_of_a_sweep(law, tmp_path, capsys):
     assert lines[0] == "runs: 5 of 6 done, 1 failed"
     assert lines[1] == "variants: 4 of 5 have all their runs, 1 failed"
     assert lines[2] == "failed: run power (x = 3): x = 3 m breaks down"
-    assert lines[3].startswith("left: 1 runs, about 1 s with 1 at a time")
+    assert lines[3].startswith("left: 1 run, about 1 s with 1 at a time")
     for entry in (out / "runs").glob("power-*"):
         entry.unlink()
     assert told(capsys, out)[0] == "runs: 1 of 6 done, 1 failed"

@@ -118,7 +118,7 @@ def test_failed_variants_are_recorded_and_the_others_go_on(law, tmp_path, capsys
     out = ["--out", str(tmp_path / "out"), "-j", "1"]
     assert cli.main(["run", str(path), *out]) == 1
     told = capsys.readouterr()
-    assert "1 variants failed" in told.err and "x = 3 m breaks down" in told.err
+    assert "1 variant failed" in told.err and "x = 3 m breaks down" in told.err
     data = cs.open_results(tmp_path / "out")["sweep"].to_dataset()
     np.testing.assert_allclose(data["largest"].sel(run="power"), [6, 9, np.nan, 21])
     assert "x = 3 m breaks down" in str(data["failure"].sel({"law.x": 3}).item())
