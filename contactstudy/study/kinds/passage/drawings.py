@@ -4,6 +4,7 @@ from contactstudy.figures import (
     bands,
     histories,
     irregularity,
+    ladder,
     passing,
     patch,
     patch_history,
@@ -16,7 +17,7 @@ from contactstudy.plot.drawing import Drawing
 from contactstudy.study.results import StudyResults
 
 _FAMILIES = (
-    irregularity, histories, bands, patch, patch_status, stress, patch_history, section, press,
+    irregularity, ladder, histories, bands, patch, patch_status, stress, patch_history, section, press,
     passing,
 )  # fmt: skip
 

@@ -10,6 +10,7 @@
         sprague_geers {M, P, C}, sprague_geers_dynamic {M, P, C},
         with ``compare.smooth`` also relative_l2_irregularity and sprague_geers_irregularity,
         third_octave {nominal centre in Hz: level less the reference's in dB}
+    rungs.<name>: with ``compare.rungs``, the run ``above`` and the same norms against it
 
 Both signals are compared at equal wheel positions behind the fade-in; `contactstudy.compare.norms`
 defines the norms. ``linf`` and ``rms`` are in the signal's SI unit. The dynamic part is what is
@@ -22,6 +23,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -42,7 +44,17 @@ def metrics(
 ) -> dict[str, Any]:
     """Content of ``metrics.json``, the norms behind the fade-in."""
     compare_from = study.journey.start + study.journey.fade_in
-    return study_metrics(runs, costs, study.reference, compare_from)
+    made = study_metrics(runs, costs, study.reference, compare_from)
+    return made | {"rungs": rungs(runs, compare_from)} if study.rungs else made
+
+
+def rungs(runs: Mapping[str, xr.Dataset], start: float) -> dict[str, Any]:
+    """Each run against the one above it in the study file, whose name is ``above``."""
+    names = list(runs)
+    return {
+        name: {"above": above, **compare_runs(runs[name], runs[above], start, bands=False)}
+        for above, name in pairwise(names)
+    }
 
 
 def study_metrics(

@@ -15,7 +15,8 @@ from contactstudy.study.study import TEXTS, read_texts
 from contactstudy.validation import complaint, did_you_mean, raise_if, read, resolve_paths, unknown
 
 _TOP_LEVEL = (*TEXTS, *SECTIONS, "runs", "compare")
-_COMPARE = ("reference", "smooth")
+_COMPARE = ("reference", "smooth", "rungs")
+_SWITCHES = ("smooth", "rungs")
 _SHARED = ("track", "vehicle", "journey", "solid", "wheelset", "scan")
 
 
@@ -92,8 +93,11 @@ def _compare(data: Mapping[str, Any], runs: list[str]) -> tuple[dict[str, Any], 
         return {}, [complaint("compare", table, "must be a table")]
     problems = [unknown("compare", key, _COMPARE) for key in table if key not in _COMPARE]
     reference = table.get("reference", runs[0] if len(runs) > 1 else None)
-    smooth = table.get("smooth", False)
-    if not isinstance(smooth, bool):
-        problems.append(complaint("compare.smooth", smooth, "must be true or false"))
+    switches = {key: table.get(key, False) for key in _SWITCHES}
+    problems += [
+        complaint(f"compare.{key}", value, "must be true or false")
+        for key, value in switches.items()
+        if not isinstance(value, bool)
+    ]
     problems += wrong_reference(reference, runs)
-    return {"reference": reference, "smooth": smooth is True}, problems
+    return {"reference": reference, **{k: v is True for k, v in switches.items()}}, problems

@@ -69,6 +69,9 @@ class Study(study.Study):
         bool, Key("compare.smooth"),
         "whether each run is also run on a smooth rail, for the part that the irregularity causes",
     ] = False  # fmt: skip
+    rungs: Annotated[
+        bool, Key("compare.rungs"), "whether each run is also compared with the one above it"
+    ] = False
 
     def __post_init__(self) -> None:
         """Refuse what is impossible in combination, as in a file; cells fit the supports."""
@@ -133,7 +136,8 @@ class Study(study.Study):
         if self.runs:
             tables["runs"] = {name: self.resolved_run(name) for name in self.runs}
         if self.reference:
-            tables["compare"] = {"reference": self.reference, "smooth": self.smooth}
+            switches = {"smooth": self.smooth, "rungs": self.rungs}
+            tables["compare"] = {"reference": self.reference, **switches}
         return tables
 
     def resolved_run(self, name: str) -> dict[str, Any]:
