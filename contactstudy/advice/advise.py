@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any
 
 from contactstudy.advice.schemes import FAMILIES, REFERENCE, Scheme, schemes
 from contactstudy.driver import compute_study
@@ -17,7 +17,6 @@ from contactstudy.study.kinds.passage.schema import Study as Passage
 from contactstudy.study.results import StudyResults
 from contactstudy.validation import complaint, raise_if, read
 
-Measure = Literal["dynamic", "total"]
 MEASURES: Mapping[str, tuple[str, str]] = {
     "dynamic": ("relative_l2_dynamic", "the dynamic part of the contact force"),
     "total": ("relative_l2", "the contact force"),
@@ -53,7 +52,7 @@ class Advice:
 
     study: str
     bound: float
-    measure: Measure
+    measure: str
     tried: tuple[Tried, ...]
     answer: Tried | None
     #: The contact stiffness [N/m] that "tangent" stands for.
@@ -70,15 +69,17 @@ class Advice:
         wanted = f"within {100 * self.bound:g} % of {of}"
         if self.answer is None:
             best = min(self.tried, key=lambda t: t.error)
+            words = FAMILIES[best.scheme.family][0]
             told = [
-                f"No scheme keeps {wanted} with a margin: the best, {FAMILIES[best.scheme.family][0]}"
-                f", is {100 * best.error:.2g} % off. Surface contact itself is needed."
+                f"No scheme keeps {wanted} with a margin: the best, {words}, is "
+                f"{100 * best.error:.2g} % off. Surface contact itself is needed."
             ]
         else:
+            words = FAMILIES[self.answer.scheme.family][0]
             told = [
-                f"The cheapest scheme that keeps {wanted} is {FAMILIES[self.answer.scheme.family][0]}: "
+                f"The cheapest scheme that keeps {wanted}: {words}. It is "
                 f"{100 * self.answer.error:.2g} % off surface contact with a modal wheel on this "
-                f"sample, at most {100 * MARGIN * self.bound:.3g} % being asked for, since the error "
+                f"sample; at most {100 * MARGIN * self.bound:.3g} % was asked for, since the error "
                 "varies from sample to sample."
             ]
         if self.k_r is not None:
@@ -94,7 +95,7 @@ def advise(
     study: Study,
     bound: float,
     folder: Path,
-    measure: Measure = "dynamic",
+    measure: str = "dynamic",
     workers: int = 2,
     reporter: Reporter | None = None,
 ) -> Advice:
@@ -132,12 +133,25 @@ def advise(
     tables = {name: scheme.table for name, scheme in found.items()}
     runs = {REFERENCE: _run(REFERENCE, {"solver": "surface", "wheel": "modal"})}
     runs |= {name: _run(name, table) for name, table in tables.items()}
-    asked = replace(study, runs=runs, reference=REFERENCE, companions=())
+    solid = replace(study.solid, pressure_at=(), animation_frames=0, animation_span=())
+    asked = replace(study, solid=solid, runs=runs, reference=REFERENCE, companions=())
     results = compute_study(asked, folder, workers, reporter)
     tried = tuple(sorted((_tried(results, n, s, measure) for n, s in found.items()), key=_order))
     answer = next((t for t in tried if t.error <= MARGIN * bound), None)
     k_r = results.runs["tangent_4_1"].attrs.get("k_r")
     return Advice(study.name, bound, measure, tried, answer, k_r, results)
+
+
+def read_bound(text: str) -> float:
+    """A share given as "5 %" or 0.05."""
+    number, percent, rest = text.partition("%")
+    try:
+        value = float(number) / (100.0 if percent else 1.0)
+    except ValueError:
+        value = float("nan")
+    if rest.strip() or not 0.0 < value < 1.0:
+        raise InputError(complaint("bound", text, 'must lie between 0 and 100 %, as "5 %" or 0.05'))
+    return value
 
 
 def _run(name: str, table: Mapping[str, Any]) -> Any:
@@ -146,7 +160,7 @@ def _run(name: str, table: Mapping[str, Any]) -> Any:
     return made
 
 
-def _tried(results: StudyResults, name: str, scheme: Scheme, measure: Measure) -> Tried:
+def _tried(results: StudyResults, name: str, scheme: Scheme, measure: str) -> Tried:
     error = results.metrics["comparisons"][name]["contact_force"][MEASURES[measure][0]]
     if error is None:
         raise InputError(
@@ -157,5 +171,6 @@ def _tried(results: StudyResults, name: str, scheme: Scheme, measure: Measure) -
     return Tried(name, scheme, float(error), int(run["dofs"]), int(run["steps"]))
 
 
-def _order(tried: Tried) -> tuple[int, float]:
-    return tried.work, tried.error
+def _order(tried: Tried) -> tuple[int, int]:
+    """Of equally large runs the simpler scheme comes first."""
+    return tried.work, list(FAMILIES).index(tried.scheme.family)

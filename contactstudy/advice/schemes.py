@@ -11,22 +11,24 @@ _TANGENT = {"solver": "point", "rail": "euler", "k_r": "tangent"}
 _SHEAR = _TANGENT | {"rail": "timoshenko", "local_compliance": True}
 _FILTERED = _SHEAR | {"contact_filter": "patch"}
 _PRESS = {key: value for key, value in _FILTERED.items() if key != "k_r"} | {"law": "press"}
-_MODAL = _PRESS | {"wheel": "modal"}
+_BAY = _PRESS | {"bay_compliance": True}
+_MODAL = _BAY | {"wheel": "modal"}
 
-#: Name -> what the scheme leaves out of surface contact, and its table; each adds one thing.
+#: Name -> words, and the scheme's table; each adds one thing to the one before.
 FAMILIES: Mapping[str, tuple[str, dict[str, Any]]] = {
     "stiff": (
-        "a large constant k_r on an Euler beam, our reading of the paper's scheme",
+        "Euler beam, large constant k_r (our reading of the paper's scheme)",
         _TANGENT | {"k_r": 1e11},
     ),
-    "tangent": ("the tangent of the static press on an Euler beam", _TANGENT),
-    "shear": ("the same on a Timoshenko beam with the loaded element's own compliance", _SHEAR),
-    "filtered": ("the same, the roughness averaged over the patch", _FILTERED),
-    "press": ("the same with the force-approach curve of the press", _PRESS),
-    "modal": ("the same with the wheel's elastic modes", _MODAL),
+    "tangent": ("Euler beam, tangent of the static press", _TANGENT),
+    "shear": ("Timoshenko beam with local compliance, tangent of the press", _SHEAR),
+    "filtered": ("Timoshenko beam, tangent, roughness averaged over the patch", _FILTERED),
+    "press": ("Timoshenko beam, force-approach curve of the press, averaged roughness", _PRESS),
+    "bay": ("Timoshenko beam with the meshed rail's give over a bay, press, averaged", _BAY),
+    "modal": ("the same beam, press and average, with the wheel's elastic modes", _MODAL),
     "solid": (
-        "the same on the meshed rail",
-        {k: v for k, v in _MODAL.items() if k != "local_compliance"} | {"rail": "solid"},
+        "meshed rail, press, averaged roughness, the wheel's elastic modes",
+        {k: v for k, v in _MODAL.items() if not k.endswith("_compliance")} | {"rail": "solid"},
     ),
 }
 ELEMENTS = (2, 4, 8)

@@ -12,10 +12,11 @@ from contactstudy.plot.style import BLACK, BLUE, ORANGE, SHADE, VERMILION, figur
 from contactstudy.plot.text import label, number
 from contactstudy.study.results import StudyResults
 
+DYNAMIC, IRREGULARITY = "relative_l2_dynamic", "relative_l2_irregularity"
 PARTS = {
     "relative_l2": ("total", "o", BLUE),
-    "relative_l2_dynamic": ("dynamic part", "s", VERMILION),
-    "relative_l2_irregularity": ("part of the irregularity", "^", ORANGE),
+    DYNAMIC: ("dynamic part", "s", VERMILION),
+    IRREGULARITY: ("part of the irregularity", "^", ORANGE),
 }
 """Norm of a comparison -> what it is of, marker and colour."""
 
@@ -60,13 +61,11 @@ def _caption(rungs: list[Rung]) -> str:
         "Markers: relative L₂ difference from the top. Bars: difference of the dynamic part from "
         "the rung above; steps do not add up, since differences may cancel."
     )
-    key = "relative_l2_dynamic"
-    steps = [r for r in rungs if key in r.step]
+    steps = [r for r in rungs if DYNAMIC in r.step]
     if steps:
-        largest = max(steps, key=lambda r: r.step[key])
-        text += (
-            f" The largest step, {number(largest.step[key])} %, is that to {label(largest.name)}."
-        )
+        largest = max(steps, key=lambda r: r.step[DYNAMIC])
+        share = number(largest.step[DYNAMIC])
+        text += f" The largest step, {share} %, is that to {label(largest.name)}."
     return text
 
 
@@ -74,7 +73,7 @@ def _draw(results: StudyResults, rungs: list[Rung]) -> Figure:
     figure = new_figure(0.9 + 0.32 * len(rungs))
     axes = figure.add_subplot()
     y = np.arange(len(rungs))
-    bars = [r.step.get("relative_l2_dynamic", np.nan) for r in rungs]
+    bars = [r.step.get(DYNAMIC, np.nan) for r in rungs]
     values = [v for r in rungs for v in (*r.from_top.values(), *bars) if v > 0.0]
     low = 10 ** np.floor(np.log10(min(values))) if values else 0.1
     axes.barh(

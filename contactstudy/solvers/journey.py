@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated
 
 import numpy as np
@@ -13,10 +13,18 @@ from contactstudy.validation import AtLeast, Key, Naming, Parameters, Unit, comp
 from contactstudy.validation import quantities as q
 from contactstudy.vehicle import Vehicle
 
+STEPS_A_WAVE = 40
+"""Time steps a wave of a sinusoid, if the time step is left out."""
+LONGEST_STEP = 1e-4
+"""Time step that is not exceeded then [s]."""
+
 
 @dataclass(frozen=True)
 class Journey(Parameters):
-    """A run at constant speed."""
+    """A run at constant speed.
+
+    Over a sinusoid end, fade-in and time step follow from the wavelength where they are left out.
+    """
 
     start: Annotated[q.LengthOrZero, Key("from"), "where the leading wheel starts"] = 6.0
     end: Annotated[q.LengthOrZero, Key("to"), "where it ends"] = 30.0
@@ -26,6 +34,22 @@ class Journey(Parameters):
     stations: Annotated[
         tuple[float, ...], Unit("m"), AtLeast(0), "where the rail's displacement is recorded"
     ] = ()
+
+    def fitting(self, wavelength: float, bay: float) -> "Journey":
+        """The same with what was left out fitted to a sinusoid of a wavelength [m].
+
+        Fade-in over a wave, at least a bay [m]; then three waves, at least two bays; at least
+        `STEPS_A_WAVE` steps a wave, of at most `LONGEST_STEP`.
+        """
+        step = min(LONGEST_STEP, wavelength / (STEPS_A_WAVE * self.speed))
+        fade_in = self.fade_in if self.given("fade_in") else max(wavelength, bay)
+        end = self.start + fade_in + max(3.0 * wavelength, 2.0 * bay)
+        return replace(
+            self,
+            fade_in=fade_in,
+            end=self.end if self.given("end") else end,
+            time_step=self.time_step if self.given("time_step") else step,
+        )
 
     def problems(self, key: Naming) -> list[str]:
         """A journey that leads nowhere, fades in to its end, or has too large a time step."""

@@ -12,13 +12,14 @@ from contactstudy.figures import (
     press,
     section,
     stress,
+    trust,
 )
 from contactstudy.plot.drawing import Drawing
 from contactstudy.study.results import StudyResults
 
 _FAMILIES = (
-    irregularity, ladder, histories, bands, patch, patch_status, stress, patch_history, section, press,
-    passing,
+    trust, ladder, irregularity, histories, bands, patch, patch_status, stress, patch_history,
+    section, press, passing,
 )  # fmt: skip
 
 

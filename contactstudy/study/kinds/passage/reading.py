@@ -9,7 +9,13 @@ from typing import Any
 from contactstudy.given_files import is_file
 from contactstudy.study.kinds.passage.checks import combined
 from contactstudy.study.kinds.passage.runs import SOLVERS
-from contactstudy.study.kinds.passage.schema import SECTIONS, Study, wrong_reference, wrong_runs
+from contactstudy.study.kinds.passage.schema import (
+    SECTIONS,
+    Study,
+    fitted_journey,
+    wrong_reference,
+    wrong_runs,
+)
 from contactstudy.study.overrides import Overrides, override
 from contactstudy.study.study import TEXTS, read_texts
 from contactstudy.validation import complaint, did_you_mean, raise_if, read, resolve_paths, unknown
@@ -61,6 +67,10 @@ def parse_study(
         solid = tables["solid"]
         if "solid" not in data or not solid.given("cell_length"):
             tables["solid"] = solid.fitting(tables["track"])
+    if {"track", "journey", "irregularity"} <= tables.keys():
+        tables["journey"] = fitted_journey(
+            tables["journey"], tables["irregularity"], tables["track"]
+        )
     runs, wrong = _runs(data.get("runs", {}))
     texts, wrong_texts = read_texts(data)
     compare, wrong_compare = _compare(data, list(data["runs"]) if runs else [])

@@ -13,7 +13,7 @@ from contactstudy.study import study
 from contactstudy.study.kinds.passage.checks import combined
 from contactstudy.study.kinds.passage.runs import SOLVERS, PointRun, SurfaceRun
 from contactstudy.study.kinds.passage.scan import ScanFiles
-from contactstudy.study.kinds.passage.solid import Solid
+from contactstudy.study.kinds.passage.solid import Solid, spacing
 from contactstudy.study.kinds.passage.wheelset import WheelsetPosition
 from contactstudy.track.model import Track
 from contactstudy.validation import (
@@ -83,6 +83,8 @@ class Study(study.Study):
         raise_if(wrong_types(parts) + wrong_runs(runs))
         if not self.solid.given("cell_length"):
             object.__setattr__(self, "solid", self.solid.fitting(self.track))
+        fitted = fitted_journey(self.journey, self.irregularity, self.track)
+        object.__setattr__(self, "journey", fitted)
         raise_if(combined(vars(self), self.runs) + wrong_reference(self.reference, self.runs))
 
     @property
@@ -165,6 +167,13 @@ class Study(study.Study):
         placed = meshed and not self.solid.half
         used = {"solid": meshed, "wheelset": placed, "scan": placed and self.scan.used}
         return [key for key in SECTIONS if used.get(key, True)]
+
+
+def fitted_journey(journey: Journey, irregularity: Irregularity, track: Track) -> Journey:
+    """The journey, over a sinusoid with what was left out fitted to it."""
+    if irregularity.spectrum != "sinusoid":
+        return journey
+    return journey.fitting(irregularity.wavelength, spacing(track))
 
 
 def wrong_types(tables: dict[str, tuple[Table | type, Any]]) -> list[str]:

@@ -97,7 +97,7 @@ class Solid(Parameters):
 
     def fitting(self, track: Track) -> Solid:
         """The same with cells of the nearest length that divides the support spacing."""
-        length = _spacing(track)
+        length = spacing(track)
         cells = max(1, round(length / self.cell_length))
         if abs(length / cells - self.cell_length) < 1e-9 * length:
             return self
@@ -114,8 +114,8 @@ class Solid(Parameters):
                 return []  # the stiffness then is Hertz's
             allowed = 'what is meshed needs a rail with a profile: "60E1"'
             problems.append(complaint("track.rail", "given", allowed))
-        if not whole(_spacing(track) / self.cell_length):
-            allowed = f"must divide {_spacing(track):g} m into whole cells (m)"
+        if not whole(spacing(track) / self.cell_length):
+            allowed = f"must divide {spacing(track):g} m into whole cells (m)"
             problems.append(complaint("solid.cell_length", self.cell_length, allowed))
         for recipe in (CellRecipe, WheelRecipe):
             keys = entries(recipe)
@@ -124,5 +124,6 @@ class Solid(Parameters):
         return problems
 
 
-def _spacing(track: Track) -> float:
+def spacing(track: Track) -> float:
+    """Distance of the supports, or the whole length where the track lies on a foundation [m]."""
     return track.support.spacing if isinstance(track.support, DiscreteSupports) else track.length

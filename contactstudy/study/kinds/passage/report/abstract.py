@@ -10,6 +10,7 @@ from contactstudy.figures.passing_components import all_passing
 from contactstudy.figures.signals import fade_end
 from contactstudy.plot.text import capital, exact, label, number
 from contactstudy.report.quantity import grouped, percent
+from contactstudy.study.kinds.passage.report import rungs
 from contactstudy.study.kinds.passage.report.metrics import between, of_run
 from contactstudy.study.kinds.passage.report.tables import describe
 from contactstudy.study.results import StudyResults
@@ -32,7 +33,7 @@ def abstract(results: StudyResults) -> list[str]:
     """Paragraphs of the abstract; what the study does not compare is not spoken of."""
     paragraphs = [_case(results)]
     if _errors(results):
-        paragraphs.append(_verdict(results))
+        paragraphs += rungs.sentences(results) or [_verdict(results)]
         paragraphs.append(_cost(results))
     for companion in results.companions:
         paragraphs += list(_companion(companion))

@@ -4,6 +4,7 @@ import re
 from collections.abc import Mapping
 from typing import Any
 
+from contactstudy.figures.ladder import IRREGULARITY
 from contactstudy.figures.passing_components import all_passing, component
 from contactstudy.figures.signals import SIGNALS, Signal
 from contactstudy.plot.text import label
@@ -91,13 +92,16 @@ def error_tables(results: StudyResults) -> list[Block]:
     """For each signal the errors of all runs against the reference."""
     made = []
     for signal in SIGNALS:
-        rows = [
-            _error_row(name, errors, signal)
+        found = {
+            name: errors
             for name in results.runs
             if (errors := between(results, name, signal.name)) is not None
-        ]
+        }
+        twins = any(IRREGULARITY in errors for errors in found.values())
+        rows = [_error_row(name, errors, signal, twins) for name, errors in found.items()]
         if rows:
             columns = ["Run", "L₂ total (%)", "L₂ dynamic (%)"]
+            columns += ["L₂ of irregularity (%)"] if twins else []
             columns += [f"Largest ({signal.unit})", f"RMS ({signal.unit})"]
             columns += ["Correlation", "M", "P", "C"]
             made.append(
@@ -110,12 +114,13 @@ def error_tables(results: StudyResults) -> list[Block]:
     return made
 
 
-def _error_row(name: str, errors: Mapping[str, Any], signal: Signal) -> list[str]:
+def _error_row(name: str, errors: Mapping[str, Any], signal: Signal, twins: bool) -> list[str]:
     sprague = errors.get("sprague_geers_dynamic", {})
     return [
         label(name),
         percent(errors["relative_l2"], 3),
         percent(errors["relative_l2_dynamic"], 3),
+        *([percent(errors.get(IRREGULARITY), 3)] if twins else []),
         rounded(signal.scale * errors["linf"]),
         rounded(signal.scale * errors["rms"]),
         fixed(errors.get("correlation"), 5),
