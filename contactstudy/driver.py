@@ -91,10 +91,17 @@ def render(results: StudyResults, out_dir: Path, reporter: Reporter) -> list[Pat
 def _planned(study: Study, folder: Path, reporter: Reporter, quick: bool) -> Plan:
     ensure_writable(folder)
     with reporter.stage("reading the study"):
-        plan = plan_study(study, folder, tuple(load_companions(study, quick)))
+        plan = _plan(study, folder, quick)
     for warning in plan.warnings:
         reporter.note(warning)
     return plan
+
+
+def _plan(study: Study, folder: Path, quick: bool, last: bool = False) -> Plan:
+    """A study with its companions and theirs, each in a folder of its name."""
+    found = load_companions(study, quick, last)
+    own = tuple(_plan(c, folder / c.name, quick, last=True) for c in found)
+    return plan_study(study, folder, own)
 
 
 def _computed(plan: Plan, jobs: int, reporter: Reporter) -> StudyResults:

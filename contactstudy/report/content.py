@@ -1,6 +1,6 @@
 """The whole report as plain data, for the template to set; what is said, a kind of study says."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -24,11 +24,11 @@ def content(results: StudyResults, timings: bool) -> Content:
         "title": results.title,
         "subtitle": f"Study {label(results.name)} · contactstudy {__version__}",
         "name": results.name,
-        "abstract": list(report.abstract),
+        "abstract": _abstract(results, report),
         "subject": [*paragraphs(results.description), *report.subject],
         "parameters": [*([report.sources] if report.sources else []), *tables],
         "results": list(report.parts),
-        "companions": [_companion(companion, timings) for companion in results.companions],
+        "companions": list(_companions(results, timings)),
         "provenance": _provenance(results),
         "model": report.model,
         "limits": report.limits,
@@ -56,10 +56,23 @@ def _report(results: StudyResults, timings: bool) -> Report:
     )
 
 
-def _companion(results: StudyResults, timings: bool) -> Content:
-    report = _report(results, timings)
-    own = report.parts if report.as_companion is None else report.as_companion
-    return {"title": results.title, "parts": _placed(own, f"{results.name}/")}
+def _abstract(results: StudyResults, report: Report) -> list[str]:
+    """Of a study that only gathers others, what those found."""
+    if results.runs or results.swept or not results.companions:
+        return list(report.abstract)
+    return [
+        f"{companion.title}: {' '.join(_report(companion, False).abstract)}"
+        for companion in results.companions
+    ]
+
+
+def _companions(results: StudyResults, timings: bool, folder: str = "") -> Iterator[Content]:
+    """A chapter a companion, and a companion's companion."""
+    for companion in results.companions:
+        report, own = _report(companion, timings), f"{folder}{companion.name}/"
+        parts = report.parts if report.as_companion is None else report.as_companion
+        yield {"title": companion.title, "parts": _placed(parts, own)}
+        yield from _companions(companion, timings, own)
 
 
 def _placed(parts: Sequence[Part], folder: str) -> list[Part]:

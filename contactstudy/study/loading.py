@@ -135,10 +135,11 @@ def base_of(study: Any) -> Any:
     return study.study if isinstance(study, Swept) else study
 
 
-def load_companions(study: Any, quick: bool = False) -> list[Any]:
-    """Studies that accompany a study, on its track; their own companions are left out.
+def load_companions(study: Any, quick: bool = False, last: bool = False) -> list[Any]:
+    """Studies that accompany a study, on its track.
 
-    With `quick` they have the values of their tables ``[quick]``.
+    With `quick` they have the values of their tables ``[quick]``. The `last` ones, companions of a
+    companion, have none themselves.
 
     Raises
     ------
@@ -151,7 +152,8 @@ def load_companions(study: Any, quick: bool = False) -> list[Any]:
     taken[study.name] = "the study that it accompanies"
     for name in study.companions:
         try:
-            made = replace(load_study(name, main=study, quick=quick), companions=())
+            made = load_study(name, main=study, quick=quick)
+            made = replace(made, companions=()) if last else made
         except InputError as error:
             problems += [f"companion {name}: {problem}" for problem in error.problems]
             continue

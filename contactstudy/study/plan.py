@@ -112,8 +112,8 @@ class Plan:
         return store_key([own, [companion.key() for companion in self.companions]], None)
 
 
-def plan_study(study: Study, out_dir: Path, companions: tuple[Study, ...] = ()) -> Plan:
-    """Read a study's inputs, those of its variants, and its companions'.
+def plan_study(study: Study, out_dir: Path, companions: tuple[Plan, ...] = ()) -> Plan:
+    """Read a study's inputs, and those of its variants; `companions` are planned already.
 
     Raises
     ------
@@ -143,8 +143,7 @@ def plan_study(study: Study, out_dir: Path, companions: tuple[Study, ...] = ()) 
             key = store_key([read.config, keys], _module(kind.measuring))
         found[name] = Planned(name, variant.title, variant.study, pieces, key)
     raise_grouped(problems)
-    others = tuple(plan_study(c, out_dir / c.name) for c in companions)
-    return Plan(study, kind, inputs, out_dir, found, others)
+    return Plan(study, kind, inputs, out_dir, found, companions)
 
 
 def _read(kind: Kind, study: Study | Swept) -> Inputs:

@@ -114,7 +114,9 @@ def print_check(study: Study, console: Console, reporter: Reporter, quick: bool 
         When an input file or a companion's study file cannot be used.
     """
     # whatever may be refused comes before the first line
-    studies = [base_of(one) for one in (study, *load_companions(study, quick))]
+    companions = load_companions(study, quick)
+    theirs = [one for c in companions for one in load_companions(c, quick, last=True)]
+    studies = [base_of(one) for one in (study, *companions, *theirs)]
     inputs = [find_kind(one.kind).read_inputs(one) for one in studies]
     needs = [*find_kind(study.kind).check(studies[0], studies[1:], reporter)]
     if isinstance(study, Swept):

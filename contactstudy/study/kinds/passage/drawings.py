@@ -11,6 +11,7 @@ from contactstudy.figures import (
     patch_status,
     press,
     section,
+    stiffness,
     stress,
     trust,
 )
@@ -18,8 +19,8 @@ from contactstudy.plot.drawing import Drawing
 from contactstudy.study.results import StudyResults
 
 _FAMILIES = (
-    trust, ladder, irregularity, histories, bands, patch, patch_status, stress, patch_history,
-    section, press, passing,
+    trust, stiffness, ladder, irregularity, histories, bands, patch, patch_status, stress,
+    patch_history, section, press, passing,
 )  # fmt: skip
 
 

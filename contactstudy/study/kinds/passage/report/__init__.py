@@ -16,6 +16,7 @@ from contactstudy.study.results import StudyResults
 # Parts of the results in their order, with the figures that belong to each.
 _PARTS = (
     ("Map", ("trust_map",)),
+    ("Contact stiffness", ("contact_stiffness",)),
     ("The ladder", ("ladder",)),
     ("Irregularity", ("irregularity_spectrum", "irregularity_profile")),
     ("Contact force", ("contact_force", "third_octaves")),
