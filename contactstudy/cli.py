@@ -99,6 +99,9 @@ def check(
 @app.command
 def reproduce(
     *names: str,
+    every: Annotated[
+        bool, Parameter(name="--all", negative="", help="The whole error study, in one report.")
+    ] = False,
     out: Annotated[Path, Parameter(name=["--out", "-o"])] = Path("reports/out"),
     overrides: Overrides = (),
     quick: Quick = False,
@@ -115,7 +118,9 @@ def reproduce(
     """
     from contactstudy.study.loading import load_study
 
-    main_study = "point_vs_surface"
+    main_study = "error_study" if every else "point_vs_surface"
+    if every and names:
+        raise InputError(f"--all: goes without names of studies (given: {', '.join(names)})")
     chosen = dict.fromkeys(names or (main_study,))
     loaded = [load_study(name, overrides, quick=quick) for name in chosen]
     folders = [out if study.name == main_study else out / study.name for study in loaded]

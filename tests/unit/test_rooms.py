@@ -46,6 +46,7 @@ ORDER = (
     ("report",),
     ("study/kinds",),
     ("driver", "notebook"),
+    ("advice",),
     ("verification/cases",),
     ("cli", "__main__"),
 )

@@ -231,7 +231,7 @@ def test_a_misspelt_run_in_an_override_names_the_run_that_is_meant():
 def test_misspelt_study_names_get_close_matches(tmp_path):
     with pytest.raises(InputError, match="did you mean 'smooth_rail'"):
         find_study("smoth_rail")
-    with pytest.raises(InputError, match="shipped: gauge_corner, manchester, measured_level"):
+    with pytest.raises(InputError, match=r"shipped: .*gauge_corner, .*manchester, measured_level"):
         find_study(tmp_path / "nowhere.toml")
 
 
