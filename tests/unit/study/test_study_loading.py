@@ -136,6 +136,19 @@ def test_a_path_in_a_file_is_relative_to_the_file(tmp_path):
         (point(direction="Y", law="hertz"), ['must be "Z"']),
         (point(direction="Y", rail="solid"), ['must be "Z" on the solid rail']),
         (point(time_step="1 s"), ["runs.point.time_step", "half the duration"]),
+        (
+            {"irregularity": {"spectrum": "sinusoid", "wavelength": "8 mm"}} | point(),
+            ["irregularity.wavelength: has waves of 0.008 m", "0.00833 m"],  # 2 x 83.3 m/s x 50 us
+        ),
+        (
+            {"irregularity": {"band": [0.08, 300.0]}} | point(time_step="0.2 ms"),
+            ["irregularity.band", "two time steps at 83.3333 m/s, 0.0333 m"],
+        ),
+        (
+            {"irregularity": {"rail_defect": "corrugation", "rail_defect_wavelength": "8 mm"}}
+            | point(),
+            ["irregularity.rail_defect_wavelength"],
+        ),
         ({"runs": {"a": {}}}, ['runs.a.solver: is missing; must be "point" or "surface"']),
         ({"runs": {"a": {"solver": "poit"}}}, ["did you mean 'point'"]),
         ({"runs": {"a b": {"solver": "point"}}}, ["letters, digits and _"]),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import Any
 
@@ -43,6 +44,7 @@ def combined(tables: Mapping[str, Any], runs: Mapping[str, Run]) -> list[str]:
             problems += journey.problems_on(track, key=naming(Journey, "journey"))
         if irregularity is not None and runs and vehicle is not None:
             problems += _defects(irregularity, journey, vehicle.wheel_radius)
+            problems += _short_waves(irregularity, journey, runs)
     if solid is None:
         return problems
     meshed = any(run.needs_solid for run in runs.values())
@@ -63,6 +65,30 @@ def combined(tables: Mapping[str, Any], runs: Mapping[str, Run]) -> list[str]:
     if journey is not None and meshed:
         problems += _solid_on_journey(solid, journey)
     return problems
+
+
+def _short_waves(
+    irregularity: Irregularity, journey: Journey, runs: Mapping[str, Run]
+) -> list[str]:
+    """Waves shorter than two time steps, which the run would take for longer ones."""
+    waves = {"rail_defect_wavelength": getattr(irregularity.rail_defect, "wavelength", math.inf)}
+    if irregularity.spectrum == "sinusoid":
+        waves["wavelength"] = irregularity.wavelength
+    if irregularity.generated:
+        waves["band"] = 2.0 * math.pi / irregularity.band[1]
+    steps = [
+        journey.time_step if run.time_step is None else run.time_step
+        for run in runs.values()
+        if run.irregularity == "study"
+    ]
+    steps = [step for step in steps if not journey.problems_of_step("", step)]
+    way = 2.0 * journey.speed * max(steps, default=0.0)
+    return [
+        f"irregularity.{key}: has waves of {wave:.3g} m; must be longer than two time steps at "
+        f"{journey.speed:g} m/s, {way:.3g} m, or the time steps shorter"
+        for key, wave in waves.items()
+        if wave < way
+    ]
 
 
 def _defects(irregularity: Irregularity, journey: Journey, radius: float) -> list[str]:

@@ -10,6 +10,7 @@ from contactstudy.study.kinds.passage.schema import Study
 
 PROFILE_STEP = 0.01  # m
 DEFECT_STEP = 0.001  # m, where there are defects
+_MOST = 1_000_000  # positions
 
 
 def sampled(study: Study, profile: irr.Profile) -> Level:
@@ -28,7 +29,8 @@ def sampled(study: Study, profile: irr.Profile) -> Level:
     if defects:
         step = min(step, DEFECT_STEP)
         label += f", with {' and '.join(name.replace('_', ' ') for name in defects)}"
-    position = np.linspace(start, end, max(2, round((end - start) / step) + 1))
+    count = min(_MOST, max(2, round((end - start) / step) + 1))
+    position = np.linspace(start, end, count)
     return Level(label, position, profile(position), deviations(table, profile))
 
 
