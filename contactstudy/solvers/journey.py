@@ -17,6 +17,8 @@ STEPS_A_WAVE = 40
 """Time steps a wave of a sinusoid, if the time step is left out."""
 LONGEST_STEP = 1e-4
 """Time step that is not exceeded then [s]."""
+MOST_STEPS = 5_000_000
+"""Of a run: the histories of so many take half a gigabyte."""
 
 
 @dataclass(frozen=True)
@@ -52,7 +54,7 @@ class Journey(Parameters):
         )
 
     def problems(self, key: Naming) -> list[str]:
-        """A journey that leads nowhere, fades in to its end, or has too large a time step."""
+        """A journey that leads nowhere, fades in to its end, or has too few or many steps."""
         distance = self.end - self.start
         if distance <= 0.0:
             return [
@@ -65,15 +67,15 @@ class Journey(Parameters):
         return problems + self.problems_of_step(key("time_step"), self.time_step)
 
     def problems_of_step(self, key: str, step: float) -> list[str]:
-        """Complaint about a time step [s] that is called `key`, if it is too large."""
+        """Complaint about a time step [s] that is called `key`, if it is too large or small."""
         duration = (self.end - self.start) / self.speed
-        if step <= duration / 2:
-            return []
-        return [
-            complaint(
-                key, step, f"must be at most half the duration of the run, {duration / 2:.3g} s"
-            )
-        ]
+        if step > duration / 2:
+            allowed = f"must be at most half the duration of the run, {duration / 2:.3g} s"
+            return [complaint(key, step, allowed)]
+        if step < duration / MOST_STEPS:
+            allowed = f"must be at least {duration / MOST_STEPS:.3g} s, for {MOST_STEPS} steps"
+            return [complaint(key, step, allowed)]
+        return []
 
     @property
     def n_steps(self) -> int:

@@ -136,8 +136,12 @@ def test_a_path_in_a_file_is_relative_to_the_file(tmp_path):
         (point(direction="Y", law="hertz"), ['must be "Z"']),
         (point(direction="Y", rail="solid"), ['must be "Z" on the solid rail']),
         (point(time_step="1 s"), ["runs.point.time_step", "half the duration"]),
+        (point(time_step="1 ps"), ["runs.point.time_step", "for 5000000 steps"]),
+        ({"journey": {"time_step": "1 ps"}}, ["journey.time_step", "at least 5.76e-08 s"]),
         (
-            {"irregularity": {"spectrum": "sinusoid", "wavelength": "8 mm"}} | point(),
+            {"irregularity": {"spectrum": "sinusoid", "wavelength": "8 mm"}}
+            | {"journey": {"time_step": "50 us", "to": "12 m"}}
+            | point(),
             ["irregularity.wavelength: has waves of 0.008 m", "0.00833 m"],  # 2 x 83.3 m/s x 50 us
         ),
         (

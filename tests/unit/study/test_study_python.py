@@ -7,7 +7,7 @@ import pytest
 from contactstudy.exceptions import InputError
 from contactstudy.solvers.journey import Journey
 from contactstudy.study.axes.design import COMBINATIONS
-from contactstudy.study.axes.table import TABLES
+from contactstudy.study.axes.keys import TABLES
 from contactstudy.study.keys import AXES, key_reference
 from contactstudy.study.kinds.passage.reading import parse_study
 from contactstudy.study.kinds.passage.runs import SOLVERS, PointRun, SurfaceRun
