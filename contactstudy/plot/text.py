@@ -6,8 +6,8 @@ import numpy as np
 
 
 def label(name: str) -> str:
-    """Name of a run as it is printed."""
-    return name.replace("_", " ")
+    """Name of a run or key as it is printed; symbols like k_r stay."""
+    return name if name.find("_") == 1 == len(name) - 2 else name.replace("_", " ")
 
 
 def counted(number: int, word: str) -> str:
@@ -16,8 +16,8 @@ def counted(number: int, word: str) -> str:
 
 
 def capital(text: str) -> str:
-    """`text` with its first letter as a capital."""
-    return text[:1].upper() + text[1:]
+    """`text` with its first letter as a capital, unless it is a symbol like k_r."""
+    return text if text[1:2] == "_" else text[:1].upper() + text[1:]
 
 
 def number(value: float, digits: int = 3) -> str:

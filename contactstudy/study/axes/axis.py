@@ -58,7 +58,7 @@ def axis_of(data: xr.Dataset, dim: str) -> AxisOf:
 
 def title_of(key: str) -> str:
     """Dotted key for people: "time step", "elements per bay of point"."""
-    parts = [part if part == "k_r" else label(part) for part in key.split(".")]
+    parts = [label(part) for part in key.split(".")]
     return f"{parts[2]} of {parts[1]}" if len(parts) == 3 else parts[-1]
 
 

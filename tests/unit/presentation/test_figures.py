@@ -9,7 +9,7 @@ from contactstudy.figures.passing_components import all_passing
 from contactstudy.figures.patch import patch_of
 from contactstudy.irregularity.shown import SpectrumCurve
 from contactstudy.plot.style import figure_style, run_styles, save
-from contactstudy.plot.text import exact, number
+from contactstudy.plot.text import capital, exact, label, number
 from contactstudy.study.kinds.passage.drawings import drawings
 
 LABELS = {
@@ -158,3 +158,9 @@ def test_number_to_three_digits(value, text):
 
 def test_given_values_lose_trailing_zeros():
     assert [exact(v) for v in (6.0, 83.333333, 1e11, 0.05)] == ["6", "83.3333", "1·10¹¹", "0.05"]
+
+
+def test_symbols_stay_as_they_are():
+    assert label("hertz_euler") == "hertz euler" and label("k_r_sweep") == "k r sweep"
+    assert label("k_r") == "k_r" and capital("k_r of point") == "k_r of point"
+    assert capital("speed") == "Speed"
