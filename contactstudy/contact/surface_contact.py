@@ -6,6 +6,7 @@ from typing import Annotated
 
 import numpy as np
 
+from contactstudy.arrays import Array
 from contactstudy.contact.augmented import AugmentedLagrangian, Enforcement, Penalty
 from contactstudy.contact.moving_wheel import MovingWheel
 from contactstudy.geometry.placement import Geometry
@@ -13,7 +14,7 @@ from contactstudy.geometry.points import ContactPoints
 from contactstudy.geometry.quadrature import Quadrature
 from contactstudy.geometry.search import CandidateList
 from contactstudy.geometry.tread import candidate_list, mesh_problems, tread_lines, wheel_points
-from contactstudy.irregularity import TreadLines
+from contactstudy.irregularity import RollingDefect, TreadLines
 from contactstudy.solids.wheel import WheelFlexibility
 from contactstudy.solids.wheel_modes import WheelModes, residual_flexibility
 from contactstudy.track.meshed import MeshedTrack
@@ -57,6 +58,10 @@ class SurfaceContact(Parameters):
     def lines(self) -> TreadLines:
         """The lines of contact points round the wheel, on which its defects have a shape."""
         return tread_lines(self.points, self.geometry or Geometry.of(self.wheel.recipe))
+
+    def level(self, wheel: RollingDefect, X: float) -> Array:
+        """What the wheel's defect adds to r at its points (npx, npy) when it is at X, both in m."""
+        return wheel.level(X + self.points.x, self.lines)
 
     @property
     def enforcement(self) -> Enforcement:

@@ -5,7 +5,7 @@
 
 from contactstudy.irregularity.bands import band_deviations
 from contactstudy.irregularity.chosen import Irregularity
-from contactstudy.irregularity.defective import DefectiveProfile, even, with_defects
+from contactstudy.irregularity.defective import DefectiveProfile, RollingDefect, even, with_defects
 from contactstudy.irregularity.depth_map import DepthMap
 from contactstudy.irregularity.estimate import (
     nominal_centre,
@@ -41,6 +41,7 @@ __all__ = [
     "OutOfRound",
     "Profile",
     "RepeatWarning",
+    "RollingDefect",
     "RoundedFlat",
     "SmoothRail",
     "Step",

@@ -1,6 +1,6 @@
 """Wheel and rail at rest, ready to be pressed together."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -33,13 +33,20 @@ class BodiesAtRest:
 
 
 def bodies_at_rest(
-    track: MeshedTrack, contact: SurfaceContact, x: float | None = None
+    track: MeshedTrack,
+    contact: SurfaceContact,
+    x: float | None = None,
+    level: Array | None = None,
 ) -> BodiesAtRest:
     """Points and flexibility of a wheel that stands on the track at x [m], by default in mid-bay.
+
+    A level r (n,) at the points [m] closes their gaps, such as `SurfaceContact.level` of a flat.
 
     The wheel has all its static flexibility; its modes do not count.
     """
     points, x = contact.points, track.track.middle if x is None else x
+    if level is not None:
+        points = replace(points, gap=points.gap - level.ravel() * points.normal_z)
     under = RailSurface(track, points).under(x)
     stretch, every = under.stretch, np.arange(len(points.gap))
     near = NearbyColumns(Factor(track.stiffness))
@@ -56,7 +63,11 @@ def bodies_at_rest(
 
 
 def geometry_press(
-    track: MeshedTrack, contact: SurfaceContact, loads: Array, x: float | None = None
+    track: MeshedTrack,
+    contact: SurfaceContact,
+    loads: Array,
+    x: float | None = None,
+    level: Array | None = None,
 ) -> PressCurve:
     """Static press by loads [N] at x, measured from the hub to the rail's centre line.
 
@@ -69,8 +80,10 @@ def geometry_press(
     track : MeshedTrack
         Any supported track with the rail. In the middle of a bay its supports hardly matter;
         over a sleeper the compression of the web by the pad adds 3 % to the approach.
+    level : ndarray (n,), optional
+        As in `bodies_at_rest`; the approach then counts from the round wheel's touch.
     """
-    at = bodies_at_rest(track, contact, x)
+    at = bodies_at_rest(track, contact, x, level)
     return press_curve(at.points, at.flexibility, loads, contact.enforcement, at.centre_line)
 
 

@@ -109,12 +109,8 @@ def surface_coupling(passage: Passage[MeshedTrack], contact: SurfaceContact) -> 
     positions, profile, x = passage.positions, passage.faded(0), contact.points.x
     path = WheelPath(positions[:, 0], profile(positions + x))
     if isinstance(profile, DefectiveProfile) and (wheel := profile.wheel) is not None:
-        lines = contact.lines
-        path = WheelPath(
-            positions[:, 0],
-            profile.without_wheel(positions + x),
-            lambda X: wheel.level(X + x, lines),
-        )
+        level = profile.without_wheel(positions + x)
+        path = WheelPath(positions[:, 0], level, lambda X: contact.level(wheel, X))
     return SurfaceCoupling(
         passage.track,
         contact.moving(int(passage.wheel_dofs[0]), passage.n_dofs),

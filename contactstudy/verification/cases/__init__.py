@@ -19,6 +19,8 @@ CASES: tuple[Case, ...] = (
     _case("subsurface_ellipse", "stress_below:below_ellipses"),
     _case("scanned_profiles", "scanned_profiles:scanned_profiles"),
     _case("tamaas_codes", "tamaas_codes:tamaas_codes", needs=("package:tamaas",)),
+    _case("wheel_flat", "wheel_flat:wheel_flat", slow=True),
+    _case("p1_p2", "p1_p2:p1_p2"),
     _case("manchester_published", "manchester_case:manchester_published"),
     _case("manchester", "manchester_case:manchester", slow=True),
     _case("s1002_solid", "s1002:solid_press", slow=True),
