@@ -50,7 +50,16 @@ Sweep = Annotated[
 Quick = Annotated[
     bool, Parameter(name="--quick", negative="", help="With the values of the table [quick].")
 ]
-Jobs = Annotated[int, Parameter(name=["--jobs", "-j"], help="Runs at the same time.")]
+Workers = Annotated[
+    int, Parameter(name=["--workers", "-j"], help="Processes that compute at the same time.")
+]
+Scheduler = Annotated[
+    str,
+    Parameter(
+        name="--scheduler",
+        help="Address of a Dask scheduler whose workers compute instead, e.g. tcp://host:8786.",
+    ),
+]
 
 
 @app.command
@@ -61,7 +70,8 @@ def run(
     overrides: Overrides = (),
     sweep: Sweep = (),
     quick: Quick = False,
-    jobs: Jobs = 2,
+    workers: Workers = 2,
+    scheduler: Scheduler = "",
 ) -> None:
     """Run a study; write result.nc, metrics.json, figures/ and report.pdf.
 
@@ -74,7 +84,7 @@ def run(
     """
     from contactstudy.study.loading import load_study
 
-    _run(load_study(study, overrides, sweep=sweep, quick=quick), out, jobs, quick)
+    _run(load_study(study, overrides, sweep=sweep, quick=quick), out, workers, scheduler, quick)
 
 
 @app.command
@@ -105,7 +115,8 @@ def reproduce(
     out: Annotated[Path, Parameter(name=["--out", "-o"])] = Path("reports/out"),
     overrides: Overrides = (),
     quick: Quick = False,
-    jobs: Jobs = 2,
+    workers: Workers = 2,
+    scheduler: Scheduler = "",
 ) -> None:
     """Run the studies that make the paper's figures, by default the main comparison.
 
@@ -126,7 +137,7 @@ def reproduce(
     folders = [out if study.name == main_study else out / study.name for study in loaded]
     _each_its_own(loaded, folders)
     for study, folder in zip(loaded, folders, strict=True):
-        _run(study, folder, jobs, quick)
+        _run(study, folder, workers, scheduler, quick)
 
 
 @app.command
@@ -137,7 +148,7 @@ def advise(
     bound: Annotated[str, Parameter(help='Error that is borne, e.g. "5 %" or 0.05.')] = "5 %",
     measure: Annotated[str, Parameter(help="Of what: dynamic or total force.")] = "dynamic",
     overrides: Overrides = (),
-    jobs: Jobs = 2,
+    workers: Workers = 2,
 ) -> None:
     """Find the cheapest point scheme that keeps an error bound; shown on one sample.
 
@@ -156,7 +167,7 @@ def advise(
 
     loaded = load_study(study, overrides)
     with TerminalReporter(_errors()) as reporter:
-        found = find(loaded, read_bound(bound), out, measure, jobs, reporter)
+        found = find(loaded, read_bound(bound), out, measure, workers, reporter)
     print_advice(found, Console())
 
 
@@ -165,7 +176,9 @@ def verify(
     *names: str,
     out: Annotated[Path, Parameter(name=["--out", "-o"])] = Path("reports/verification"),
     quick: Annotated[bool, Parameter(negative="", help="Leave out what takes long.")] = False,
-    jobs: Annotated[int, Parameter(name=["--jobs", "-j"], help="Cases at the same time.")] = 2,
+    workers: Annotated[
+        int, Parameter(name=["--workers", "-j"], help="Cases at the same time.")
+    ] = 2,
     listing: Annotated[bool, Parameter(name="--list", negative="")] = False,
 ) -> None:
     """Run the named verification cases; write verification.pdf and verification.json.
@@ -194,7 +207,7 @@ def verify(
     from contactstudy.verification.runner import about, complaints, run_cases
 
     with TerminalReporter(_errors()) as reporter:
-        outcomes = run_cases(cases, out, quick, reporter, jobs)
+        outcomes = run_cases(cases, out, quick, reporter, workers)
         with reporter.stage("typesetting"):
             write_json(outcomes, about(), out)
             pdf = write_verification(outcomes, about(), out)
@@ -297,13 +310,13 @@ def cache(
         print(store.summary())
 
 
-def _run(study: Study, out: Path, jobs: int, quick: bool) -> None:
+def _run(study: Study, out: Path, workers: int, scheduler: str, quick: bool) -> None:
     from contactstudy.driver import run_study
     from contactstudy.plot.text import counted
     from contactstudy.study.terminal import TerminalReporter, print_results
 
     with TerminalReporter(_errors()) as reporter:
-        results = run_study(study, out, jobs, reporter, quick)
+        results = run_study(study, out, workers, reporter, quick, scheduler)
     print_results(results, out, Console())
     if failures := results.failures:
         told = [f"{title}: {reason}" for title, reason in failures.items()]

@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import contextlib
+from collections.abc import Iterator
+from concurrent.futures import Executor
 from dataclasses import replace
 from pathlib import Path
 
+from contactstudy.cluster import Cluster
 from contactstudy.exceptions import InputError
+from contactstudy.executor import at_once, check_workers
 from contactstudy.figures import write_figures
 from contactstudy.files import ensure_writable, file_digest
 from contactstudy.report import write_report
@@ -32,17 +37,19 @@ FINISHED = "finished"
 def run_study(
     study: Study,
     out_dir: str | Path,
-    jobs: int = 2,
+    workers: int = 2,
     reporter: Reporter | None = None,
     quick: bool = False,
+    scheduler: str = "",
 ) -> StudyResults:
     """Run a study and write results, figures and report into `out_dir`.
 
     What is finished there already is taken as it is; when everything is, so are the figures and
     the report.
 
-    `jobs` pieces of work are computed at once, each in another process. With `quick` companions
-    have the values of their tables ``[quick]``.
+    `workers` pieces of work are computed at once, each in another process, or as many as the
+    Dask scheduler at the address `scheduler` has workers for. With `quick` companions have the
+    values of their tables ``[quick]``.
 
     Raises
     ------
@@ -52,12 +59,13 @@ def run_study(
         When a run broke down; the others are finished and kept.
     """
     reporter, out_dir = reporter or Quiet(), Path(out_dir)
-    plan = _planned(study, out_dir, reporter, quick)
-    if (done := _finished_results(plan)) is not None:
-        reporter.note(f"{out_dir}: all results are there and up to date")
-        return done
-    write_plan(plan, jobs)
-    results = _computed(plan, jobs, reporter)
+    with _executor(workers, scheduler, reporter) as executor:
+        plan = _planned(study, out_dir, reporter, quick)
+        if (done := _finished_results(plan)) is not None:
+            reporter.note(f"{out_dir}: all results are there and up to date")
+            return done
+        write_plan(plan, at_once(workers, executor))
+        results = _computed(plan, workers, reporter, executor)
     with reporter.stage("writing the results"):
         written = _write(results, out_dir)
     written += render(results, out_dir, reporter)
@@ -71,13 +79,16 @@ def run_study(
 def compute_study(
     study: Study,
     folder: Path,
-    jobs: int = 2,
+    workers: int = 2,
     reporter: Reporter | None = None,
     quick: bool = False,
+    scheduler: str = "",
 ) -> StudyResults:
     """As `run_study`, but only the finished runs are kept, in ``folder/runs``."""
     reporter = reporter or Quiet()
-    return _computed(_planned(study, folder, reporter, quick), jobs, reporter)
+    with _executor(workers, scheduler, reporter) as executor:
+        plan = _planned(study, folder, reporter, quick)
+        return _computed(plan, workers, reporter, executor)
 
 
 def render(results: StudyResults, out_dir: Path, reporter: Reporter) -> list[Path]:
@@ -86,6 +97,21 @@ def render(results: StudyResults, out_dir: Path, reporter: Reporter) -> list[Pat
         written = write_figures(results, out_dir)
     with reporter.stage("typesetting the report"):
         return [*written, write_report(results, out_dir)]
+
+
+@contextlib.contextmanager
+def _executor(workers: int, scheduler: str, reporter: Reporter) -> Iterator[Executor | None]:
+    """Where pieces of work are computed; None for processes here."""
+    check_workers(workers)
+    if not scheduler:
+        yield None
+        return
+    with reporter.stage("connecting to the scheduler"):
+        cluster = Cluster(scheduler)
+    for remark in cluster.remarks:
+        reporter.note(remark)
+    with cluster:
+        yield cluster
 
 
 def _planned(study: Study, folder: Path, reporter: Reporter, quick: bool) -> Plan:
@@ -104,8 +130,10 @@ def _plan(study: Study, folder: Path, quick: bool, last: bool = False) -> Plan:
     return plan_study(study, folder, own)
 
 
-def _computed(plan: Plan, jobs: int, reporter: Reporter) -> StudyResults:
-    found = compute(plan, jobs, reporter)
+def _computed(
+    plan: Plan, workers: int, reporter: Reporter, executor: Executor | None
+) -> StudyResults:
+    found = compute(plan, workers, reporter, executor)
     with reporter.stage("comparing the runs"):
         return _collected(plan, found)
 

@@ -7,6 +7,7 @@ not depend on what ran before.
 
 from __future__ import annotations
 
+import contextlib
 import queue
 import traceback
 import warnings
@@ -15,9 +16,11 @@ from concurrent.futures import Executor, Future
 from dataclasses import dataclass
 from typing import Any
 
+from contactstudy.cluster import Cluster
 from contactstudy.exceptions import ContactStudyError, InputError, NumericalError
 from contactstudy.process import forget_peak_memory
 from contactstudy.reporter import Quiet, Reporter
+from contactstudy.waiting import Waiting
 from contactstudy.workers import InThisProcess, WorkerDiedError, Workers, report
 
 Progress = Callable[[int, int], None]
@@ -58,23 +61,26 @@ class Outcome:
 
 def run_tasks(
     tasks: Sequence[Task],
-    jobs: int = 2,
+    workers: int = 2,
     reporter: Reporter | None = None,
     finished: Callable[[str, Outcome], None] | None = None,
     executor: Executor | None = None,
 ) -> dict[str, Outcome]:
-    """Run tasks, `jobs` at a time, in the order given as far as `after` allows.
+    """Run tasks in the order given as far as `after` allows.
 
     Parameters
     ----------
     tasks : sequence of Task
         With distinct names.
+    workers : int
+        How many run at once, unless there is an `executor`.
     reporter : Reporter, optional
         Told of the beginning, the progress, the warnings and the end of each task.
     finished : callable, optional
         ``finished(name, outcome)``, called instead of ``reporter.end`` as each task ends.
     executor : Executor, optional
-        Where they run, which stays open; by default `Workers`, or this process.
+        Where they run, as many at once as it likes, which stays open; by default `Workers`, or
+        this process. A `Cluster` is listened to.
 
     Returns
     -------
@@ -86,8 +92,7 @@ def run_tasks(
     KeyboardInterrupt
         After all workers have been ended.
     """
-    if not isinstance(jobs, int) or jobs < 1:
-        raise InputError(f"jobs = {jobs!r}: must be a whole number at least 1")
+    check_workers(workers)
     reporter = reporter or Quiet()
     events: queue.SimpleQueue[Any] = queue.SimpleQueue()
 
@@ -97,40 +102,52 @@ def run_tasks(
         else:
             reporter.progress(name, *message)
 
-    own: Executor | None = None
-    if executor is None:
-        here = all(task.here for task in tasks)
-        executor = own = InThisProcess(lambda m: told(*m)) if here else Workers(jobs, events.put)
-    for task in tasks:
-        reporter.begin(task.name, 0)
-    waiting, running, outcomes = list(tasks), dict[Future[Any], Task](), dict[str, Outcome]()
-    try:
-        while waiting or running:
-            unfinished = {task.name for task in [*waiting, *running.values()]}
-            ready = [t for t in waiting if not unfinished & set(t.after)]
-            for task in ready[: max(0, jobs - len(running))]:
-                waiting.remove(task)
-                future = executor.submit(perform, task)
-                running[future] = task
+    with contextlib.ExitStack() as stack:
+        at_once = workers
+        if executor is None:
+            here = all(task.here for task in tasks)
+            own = InThisProcess(lambda m: told(*m)) if here else Workers(workers, events.put)
+            stack.callback(own.shutdown, cancel_futures=True)
+            executor = own
+        else:
+            at_once = len(tasks)
+            if isinstance(executor, Cluster):
+                stack.enter_context(executor.listening(events.put))
+        for task in tasks:
+            reporter.begin(task.name, 0)
+        named, outcomes = {task.name: task for task in tasks}, dict[str, Outcome]()
+        left, running = Waiting({t.name: t.after for t in tasks}), dict[Future[Any], str]()
+        stack.callback(lambda: [future.cancel() for future in running])
+        while left or running:
+            while len(running) < at_once and (ready := left.next()) is not None:
+                future = executor.submit(perform, named[ready])
+                running[future] = ready
                 future.add_done_callback(events.put)
             if not running:
-                raise RuntimeError(f"tasks wait for each other: {[t.name for t in waiting]}")
+                raise RuntimeError(f"tasks wait for each other: {left.names}")
             event = events.get()
             if not isinstance(event, Future):
                 told(*event)
                 continue
-            name = running.pop(event).name
+            name = running.pop(event)
+            left.ended(name)
             outcomes[name] = outcome = _outcome(name, event)
             if finished is None:
                 reporter.end(name, outcome.error is None)
             else:
                 finished(name, outcome)
-    finally:
-        for future in running:
-            future.cancel()
-        if own is not None:
-            own.shutdown(cancel_futures=True)
     return {task.name: outcomes[task.name] for task in tasks}
+
+
+def at_once(workers: int, executor: Executor | None) -> int:
+    """How many tasks run at the same time."""
+    return executor.number if isinstance(executor, Cluster) else workers
+
+
+def check_workers(workers: Any) -> None:
+    """Refuse what is no number of workers."""
+    if not isinstance(workers, int) or isinstance(workers, bool) or workers < 1:
+        raise InputError(f"workers = {workers!r}: must be a whole number at least 1")
 
 
 def perform(task: Task) -> Outcome:
@@ -166,12 +183,8 @@ def _outcome(name: str, future: Future[Any]) -> Outcome:
         outcome: Outcome = future.result()
         return outcome
     if isinstance(error, WorkerDiedError):
-        return Outcome(
-            error=NumericalError(
-                f"{name}: its process ended without a result (exit code {error.exit_code}); "
-                "most often the machine ran out of memory"
-            )
-        )
+        again = "what is finished is kept, the same command goes on from there"
+        return Outcome(error=NumericalError(f"{name}: {error}; {again}"))
     return Outcome(error=_unexpected(name, "".join(traceback.format_exception(error))))
 
 

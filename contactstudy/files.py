@@ -49,6 +49,24 @@ def remove_unfinished(directory: Path, stem: str = "", older_than: float = 0.0) 
                 path.unlink()
 
 
+@contextlib.contextmanager
+def alone(path: Path) -> Iterator[None]:
+    """Meanwhile no other process makes `path`; one that is killed gives way at once.
+
+    Where files cannot be locked, others may do the same work at the same time.
+    """
+    lock = path.with_name(f"{_UNFINISHED}{path.stem}.lock")
+    with contextlib.ExitStack() as stack:
+        with contextlib.suppress(ImportError, OSError):
+            import fcntl
+
+            lock.parent.mkdir(parents=True, exist_ok=True)
+            stream = stack.enter_context(lock.open("w"))
+            fcntl.flock(stream, fcntl.LOCK_EX)
+            stack.callback(lock.unlink, missing_ok=True)
+        yield
+
+
 def ensure_writable(directory: Path) -> None:
     """Make `directory` and try to write in it; `InputError` says why when that fails."""
     with _said_of(directory):

@@ -65,7 +65,8 @@ def run(
     values: Mapping[str, Any] | None = None,
     *,
     out: str | Path | None = None,
-    jobs: int = 2,
+    workers: int = 2,
+    scheduler: str = "",
     quick: bool = False,
 ) -> StudyResults:
     """Run a study.
@@ -80,8 +81,10 @@ def run(
     out : str or Path, optional
         Folder for results, figures and report. Nothing is written without it, but the finished
         runs are kept in the user's cache folder.
-    jobs : int
+    workers : int
         Runs at the same time, each in a process of its own.
+    scheduler : str, optional
+        Address of a Dask scheduler, ``"tcp://host:8786"``, whose workers run them instead.
     quick : bool
         With the values of the table ``[quick]``, of a file and of companions.
 
@@ -97,7 +100,7 @@ def run(
     NumericalError
         When a run broke down; the others are finished and kept.
     """
-    return _run(_study(study, values, quick), out, jobs, quick)
+    return _run(_study(study, values, quick), out, workers, scheduler, quick)
 
 
 def sweep(
@@ -106,7 +109,8 @@ def sweep(
     values: Mapping[str, Any] | None = None,
     *,
     out: str | Path | None = None,
-    jobs: int = 2,
+    workers: int = 2,
+    scheduler: str = "",
 ) -> xr.Dataset:
     """Vary keys of a study.
 
@@ -117,7 +121,7 @@ def sweep(
         Dotted key -> its values, as in the table ``[sweep]``:
         ``{"irregularity.seed": "1 to 50", "journey.speed": ["200 km/h", "300 km/h"]}``; also
         ``combine``, ``samples``, ``seed`` and ``keep``. They replace those of the file.
-    values, out, jobs
+    values, out, workers, scheduler
         As of `run`.
 
     Returns
@@ -134,7 +138,7 @@ def sweep(
     made = load_study(study, _mapping("values", values), sweep=_mapping("series", series))
     if not isinstance(made, Swept):
         raise InputError(f"series = {series!r}: must name at least one key that is varied")
-    return next(iter(_run(made, out, jobs, False).designs.values()))
+    return next(iter(_run(made, out, workers, scheduler, False).designs.values()))
 
 
 def _mapping(name: str, given: Mapping[str, Any] | None) -> Mapping[str, Any]:
@@ -144,13 +148,15 @@ def _mapping(name: str, given: Mapping[str, Any] | None) -> Mapping[str, Any]:
     return given or {}
 
 
-def _run(study: Study, out: str | Path | None, jobs: int, quick: bool) -> StudyResults:
+def _run(
+    study: Study, out: str | Path | None, workers: int, scheduler: str, quick: bool
+) -> StudyResults:
     if not isinstance(out, str | Path | None):
         raise InputError(f"out = {out!r}: must be a folder")
     with TerminalReporter(Console(stderr=True)) as reporter:
         if out is None:
-            return compute_study(study, cache_directory(), jobs, reporter, quick)
-        return run_study(study, out, jobs, reporter, quick)
+            return compute_study(study, cache_directory(), workers, reporter, quick, scheduler)
+        return run_study(study, out, workers, reporter, quick, scheduler)
 
 
 def _study(

@@ -31,12 +31,18 @@ def report(message: Any) -> None:
     _reports.get()(message)
 
 
-class WorkerDiedError(Exception):
-    """A worker process ended in the middle of a call: it was killed, or out of memory."""
+@contextlib.contextmanager
+def reports_to(receive: Receive) -> Iterator[None]:
+    """Meanwhile `receive` is called with each `report`."""
+    token = _reports.set(receive)
+    try:
+        yield
+    finally:
+        _reports.reset(token)
 
-    def __init__(self, exit_code: int | None) -> None:
-        super().__init__(exit_code)
-        self.exit_code = exit_code
+
+class WorkerDiedError(Exception):
+    """A worker ended in the middle of a call; the message says how."""
 
 
 class InThisProcess(Executor):
@@ -47,13 +53,12 @@ class InThisProcess(Executor):
 
     def submit(self, function: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
         """Call, and return a future that is done; Ctrl-C is not caught."""
-        future, token = Future[Any](), _reports.set(self._receive)
-        try:
-            future.set_result(function(*args, **kwargs))
-        except Exception as error:
-            future.set_exception(error)
-        finally:
-            _reports.reset(token)
+        future = Future[Any]()
+        with reports_to(self._receive):
+            try:
+                future.set_result(function(*args, **kwargs))
+            except Exception as error:
+                future.set_exception(error)
         return future
 
 
@@ -95,7 +100,7 @@ class Workers(Executor):
     def _call(self, *call: Any) -> Any:
         with self._lock:
             if self._closed:
-                raise WorkerDiedError(None)
+                raise WorkerDiedError("it was ended")
             worker = self._idle.pop() if self._idle else _Worker()
             self._busy.add(worker)
         alive = True
@@ -104,7 +109,10 @@ class Workers(Executor):
         except (EOFError, OSError):
             alive = False
             worker.process.join()
-            raise WorkerDiedError(worker.process.exitcode) from None
+            raise WorkerDiedError(
+                f"its process ended without a result (exit code {worker.process.exitcode}); "
+                "most often the machine ran out of memory"
+            ) from None
         finally:
             with self._lock:
                 self._busy.remove(worker)

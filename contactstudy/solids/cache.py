@@ -12,6 +12,7 @@ from typing import Any, Generic, TypeVar
 import numpy as np
 
 from contactstudy.exceptions import InputError
+from contactstudy.files import alone
 from contactstudy.store import ARRAYS, Store, StoreWarning, store_key
 
 Made = TypeVar("Made")
@@ -78,19 +79,28 @@ def cached(body: CachedBody[Made], store: Store | None = None) -> Made:
         same and will have to be made again).
     """
     store = store or cache_store()
+    kept = store.load(_name(body), body.key)
+    if kept.value is None:
+        with alone(store.path(_name(body), body.key)):
+            return _made(body, store)
+    return body.made(recipe=body.recipe, **kept.value)
+
+
+def _made(body: CachedBody[Made], store: Store) -> Made:
+    """A body that was not in the store, unless another process has made it meanwhile."""
     name, key = _name(body), body.key
     kept = store.load(name, key)
     if kept.value is not None:
         return body.made(recipe=body.recipe, **kept.value)
     if kept.damage:
-        warnings.warn(f"{kept.damage}; it is made again", StoreWarning, stacklevel=2)
+        warnings.warn(f"{kept.damage}; it is made again", StoreWarning, stacklevel=3)
     made = body.build(body.recipe)
     names = [f.name for f in fields(body.made) if f.name != "recipe"]  # type: ignore[arg-type]
     try:
         store.save(name, key, {field: np.asarray(getattr(made, field)) for field in names})
     except (OSError, InputError) as error:
         message = f"cache entry {store.path(name, key)} cannot be written ({_reason(error)})"
-        warnings.warn(f"{message}; the result is used uncached", StoreWarning, stacklevel=2)
+        warnings.warn(f"{message}; the result is used uncached", StoreWarning, stacklevel=3)
     return made
 
 

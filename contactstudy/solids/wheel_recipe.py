@@ -12,7 +12,17 @@ from contactstudy.profiles.wheel_file import named_file_digest
 from contactstudy.solids.mapped import Grading
 from contactstudy.solids.recipe import CellRecipe
 from contactstudy.solids.wheel_section import WheelSection, fine_arcs, wheel_section
-from contactstudy.validation import Above, AtMost, Key, Naming, Parameters, Same, Unit, complaint
+from contactstudy.validation import (
+    Above,
+    AtMost,
+    File,
+    Key,
+    Naming,
+    Parameters,
+    Same,
+    Unit,
+    complaint,
+)
 from contactstudy.validation import quantities as q
 
 COARSE, GROWTH = 0.012, 1.6
@@ -44,10 +54,10 @@ class WheelRecipe(Parameters):
     far_step : float
         Largest angle between two planes in rad, away from the contact.
     profile_digest : str
-        Of the profile's content where it is a file; filled in by itself.
+        Of the profile's content where it is a file, its name otherwise; filled in by itself.
     """
 
-    profile: str = "cylinder"
+    profile: Annotated[str, File(True), Key("")] = field(default="cylinder", repr=False)
     rail_profile: str = "60E1"
     dimensions: WheelDimensions = field(default_factory=WheelDimensions)
     size: Annotated[float, Same(CellRecipe, "size"), Key("mesh_size")] = CellRecipe.size
@@ -81,7 +91,8 @@ class WheelRecipe(Parameters):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        object.__setattr__(self, "profile_digest", named_file_digest(self.profile))
+        content = named_file_digest(self.profile)
+        object.__setattr__(self, "profile_digest", content or self.profile)
 
     @property
     def angles(self) -> Array:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from contactstudy.exceptions import ContactStudyError, InputError, NumericalError
-from contactstudy.executor import Outcome, Task, run_tasks
+from contactstudy.executor import Outcome, Task, at_once, run_tasks
 from contactstudy.files import ensure_writable
 from contactstudy.reporter import Bars, Reporter
 from contactstudy.store import Kept
@@ -33,11 +33,13 @@ class Found:
     unmeasured: Mapping[str, str] = field(default_factory=dict)
 
 
-def compute(plan: Plan, jobs: int, reporter: Reporter, executor: Executor | None = None) -> Found:
+def compute(
+    plan: Plan, workers: int, reporter: Reporter, executor: Executor | None = None
+) -> Found:
     """Compute what is not finished yet, of a plan and its companions.
 
-    Pieces run in the `executor`, by default in `jobs` processes of their own; what is measured of
-    variants is always measured here.
+    Pieces run in the `executor`, by default in `workers` processes of their own, in which what
+    is measured of variants always is.
 
     Raises
     ------
@@ -55,7 +57,7 @@ def compute(plan: Plan, jobs: int, reporter: Reporter, executor: Executor | None
         _admit(one, [p for owner, p in todo if owner is one], reporter)
     failures: dict[Piece, str] = {}
     if todo:
-        failures = _run(plan, todo, jobs, reporter, executor)
+        failures = _run(plan, todo, workers, reporter, executor)
         again = dict.fromkeys(p for _, p in todo)
         found |= {p: k for one in plan.all for p, k in _kept(one, again) if p not in failures}
     for piece, kept in found.items():
@@ -65,7 +67,7 @@ def compute(plan: Plan, jobs: int, reporter: Reporter, executor: Executor | None
     measured, unmeasured = dict[str, Kept](), dict[str, str]()
     for one in plan.all:
         if one.swept:
-            made, wrong = measure(one, found, jobs, reporter)
+            made, wrong = measure(one, found, workers, reporter)
             measured, unmeasured = measured | made, unmeasured | wrong
     return Found(found, measured, failures, unmeasured)
 
@@ -96,19 +98,19 @@ def _admit(plan: Plan, pieces: Sequence[Piece], reporter: Reporter) -> None:
 def _run(
     plan: Plan,
     todo: list[tuple[Plan, Piece]],
-    jobs: int,
+    workers: int,
     reporter: Reporter,
     executor: Executor | None,
 ) -> dict[Piece, str]:
     """Compute and keep pieces; why those of studies with axes failed."""
     # The long ones first, so that the short ones fill the gaps.
     ordered = sorted(todo, key=lambda pair: not pair[1].work.long)
-    round_ = _Round(plan, list(groups(ordered, jobs)), reporter, here=True)
-    round_.run(jobs, executor)
+    round_ = _Round(plan, list(groups(ordered, at_once(workers, executor))), reporter, here=True)
+    round_.run(workers, executor)
     failures, lost = round_.failures, round_.lost
     if round_.broken:  # a process that died took all of its batch along
         alone = _Round(plan, [[pair] for pair in round_.broken], reporter, here=False)
-        alone.run(jobs, executor)
+        alone.run(workers, executor)
         failures, lost = failures | alone.failures, lost + alone.lost
     strict = {p: e for p, e in failures.items() if not p.title}
     for one in plan.all:  # nothing is left to show
@@ -153,10 +155,10 @@ class _Round:
                 bars[name] = of + bar
         self._shown = Bars(reporter, bars)
 
-    def run(self, jobs: int, executor: Executor | None) -> None:
+    def run(self, workers: int, executor: Executor | None) -> None:
         """Compute, and keep each piece as soon as it is there."""
         tasks = [*self._bodies.values(), *self._tasks.values()]
-        run_tasks(tasks, jobs, self._shown, self._finished, executor)
+        run_tasks(tasks, workers, self._shown, self._finished, executor)
 
     def _finished(self, name: str, outcome: Outcome) -> None:
         group, results = self._owners.get(name, []), outcome.value or []

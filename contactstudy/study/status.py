@@ -21,7 +21,7 @@ PLAN_FILE = "plan.json"
 _SHOWN = 12  # failures
 
 
-def write_plan(plan: Plan, jobs: int) -> None:
+def write_plan(plan: Plan, workers: int) -> None:
     """Note the pieces of work of a plan and its companions in its folder."""
     studies = []
     for one in plan.all:
@@ -39,7 +39,7 @@ def write_plan(plan: Plan, jobs: int) -> None:
             }
         )
     with writing(plan.out_dir / RUNS / PLAN_FILE) as path:
-        path.write_text(json.dumps({"jobs": jobs, "studies": studies}) + "\n", "utf-8")
+        path.write_text(json.dumps({"workers": workers, "studies": studies}) + "\n", "utf-8")
 
 
 @dataclass(frozen=True)
@@ -85,9 +85,12 @@ def status(out_dir: Path) -> list[str]:
     if not left:
         ready = "results are written" if written else "results are still to be written"
         return [*told, f"nothing is left to compute; {ready}"]
-    seconds = _time_left(pieces) / plan["jobs"]
+    seconds = _time_left(pieces) / plan["workers"]
     long = duration(seconds)
-    return [*told, f"left: {counted(len(left), 'run')}, about {long} with {plan['jobs']} at a time"]
+    return [
+        *told,
+        f"left: {counted(len(left), 'run')}, about {long} with {plan['workers']} at a time",
+    ]
 
 
 def _pieces(folder: Path, study: dict[str, Any]) -> Iterator[_Piece]:

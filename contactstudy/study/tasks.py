@@ -18,14 +18,14 @@ BATCH = 64
 """Most pieces of work that are computed together."""
 
 
-def groups(todo: Sequence[tuple[Plan, Piece]], jobs: int) -> Iterator[list[tuple[Plan, Piece]]]:
+def groups(todo: Sequence[tuple[Plan, Piece]], workers: int) -> Iterator[list[tuple[Plan, Piece]]]:
     """Pieces that are computed together, at the place of the first of them."""
     batches: dict[tuple[int, str], list[tuple[Plan, Piece]]] = {}
     for one, piece in todo:
         if piece.work.batch and one.swept:
             batches.setdefault((id(one), piece.work.batch), []).append((one, piece))
     # some batches for each worker, so that all end at about the same time
-    size = {key: min(BATCH, max(1, -(-len(own) // (2 * jobs)))) for key, own in batches.items()}
+    size = {key: min(BATCH, max(1, -(-len(own) // (2 * workers)))) for key, own in batches.items()}
     for one, piece in todo:
         if not (piece.work.batch and one.swept):
             yield [(one, piece)]

@@ -28,7 +28,7 @@ def run_cases(
     out_dir: Path,
     quick: bool = False,
     reporter: Reporter | None = None,
-    jobs: int = 1,
+    workers: int = 1,
 ) -> list[CaseOutcome]:
     """Run cases; those that are kept in `out_dir` from the same program are taken from there.
 
@@ -38,7 +38,7 @@ def run_cases(
     ----------
     quick : bool
         Slow cases are not run.
-    jobs : int
+    workers : int
         Cases at once, each in a process of its own; with 1 all run in this process.
 
     Raises
@@ -63,8 +63,8 @@ def run_cases(
         reporter.end(name, outcome.good)
         reporter.note(outcome_line(outcome))
 
-    tasks = [Task(case.name, _run, (case, out_dir), here=jobs == 1) for case in todo]
-    run_tasks(tasks, jobs, reporter, finished)
+    tasks = [Task(case.name, _run, (case, out_dir), here=workers == 1) for case in todo]
+    run_tasks(tasks, workers, reporter, finished)
     return [outcomes[case.name] for case in cases]
 
 

@@ -115,7 +115,7 @@ def test_usage_errors(capfd, short, tmp_path):
     assert "did you mean 'smooth_rail'" in refused(capfd, "reproduce", "smooth-rail")
     assert 'Did you mean "check"' in refused(capfd, "chek", short)
     assert "--out" in refused(capfd, "run", short)
-    assert "jobs = 0" in refused(capfd, "run", short, "--out", tmp_path / "o", "--jobs", "0")
+    assert "workers = 0" in refused(capfd, "run", short, "--out", tmp_path / "o", "--workers", "0")
 
 
 @pytest.mark.parametrize(

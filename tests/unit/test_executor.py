@@ -135,7 +135,7 @@ def test_errors_stay_with_their_task(tasks_module):
 def test_warnings_reach_the_parent(tasks_module):
     recorder = Recorder()
     # in one worker, where Python would show a warning of the same place once
-    run_tasks([Task(name, tasks_module.warns) for name in "ab"], jobs=1, reporter=recorder)
+    run_tasks([Task(name, tasks_module.warns) for name in "ab"], workers=1, reporter=recorder)
     assert recorder.notes == [f"{name}: the profile repeats itself" for name in "ab"]
 
 
@@ -144,7 +144,7 @@ def test_after_is_waited_for(tasks_module):
         Task("late", tasks_module.clock, after=("early",)),
         Task("early", tasks_module.clock),
     ]
-    outcomes = run_tasks(tasks, jobs=2)
+    outcomes = run_tasks(tasks, workers=2)
     assert outcomes["late"].value[0] >= outcomes["early"].value[1]
 
 
@@ -177,7 +177,7 @@ def _interrupt_while_a_task_sleeps(tasks_module, tmp_path):
 
 def test_jobs_must_be_positive():
     with pytest.raises(InputError, match="at least 1"):
-        run_tasks([Task("a", math.sqrt)], jobs=0)
+        run_tasks([Task("a", math.sqrt)], workers=0)
 
 
 def test_workers_live_on_and_one_that_dies_is_replaced(tasks_module):
@@ -185,7 +185,7 @@ def test_workers_live_on_and_one_that_dies_is_replaced(tasks_module):
         return [Task(name, tasks_module.environment) for name in names]
 
     tasks = [*environments("a", "b"), Task("dies", tasks_module.fails, ("killed",))]
-    outcomes = run_tasks([*tasks, *environments("c", "d")], jobs=1)
+    outcomes = run_tasks([*tasks, *environments("c", "d")], workers=1)
     pids = {name: o.value[2] for name, o in outcomes.items() if o.error is None}
     assert pids["a"] == pids["b"] != pids["c"] == pids["d"]
     assert "without a result" in str(outcomes["dies"].error)
@@ -216,7 +216,7 @@ def pid(progress):
 def test_what_cannot_be_sent_is_an_error_of_its_task(tasks_module):
     tasks = [Task("there", len, (lambda: 0,)), Task("good", tasks_module.double, (1,))]
     tasks += [Task("back", tasks_module.gives_back_a_function)]
-    outcomes = run_tasks(tasks, jobs=1)
+    outcomes = run_tasks(tasks, workers=1)
     assert "unexpected error" in str(outcomes["there"].error)
     assert "unexpected error" in str(outcomes["back"].error)
     assert outcomes["good"].value == 2
@@ -224,7 +224,7 @@ def test_what_cannot_be_sent_is_an_error_of_its_task(tasks_module):
 
 def test_peak_memory_is_the_tasks_own(tasks_module):
     tasks = [Task(name, tasks_module.memory, (size,)) for name, size in (("big", 40), ("small", 1))]
-    big, small = (o.value for o in run_tasks(tasks, jobs=1).values())
+    big, small = (o.value for o in run_tasks(tasks, workers=1).values())
     print(f"peak {big:.0f} MB with 320 MB of numbers, {small:.0f} MB without in the same process")
     assert 300 < big - small < 340
 
@@ -241,5 +241,5 @@ def test_results_do_not_depend_on_what_ran_before(tasks_module):
     assert here.value == fresh["point"]
     order = ("surface", "point", "surface", "point")
     tasks = [Task(f"{name} {k}", tasks_module.run, (name,)) for k, name in enumerate(order)]
-    outcomes = run_tasks(tasks, jobs=1)
+    outcomes = run_tasks(tasks, workers=1)
     assert [o.value for o in outcomes.values()] == [fresh[name] for name in order]

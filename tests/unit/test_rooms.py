@@ -26,7 +26,7 @@ ORDER = (
         "store",
         "reporter",
     ),
-    ("executor", "workers"),
+    ("executor", "waiting", "workers", "cluster", "carried"),
     ("profiles",),
     ("irregularity",),
     ("dynamics",),

@@ -35,7 +35,7 @@ class Asked:
 
 
 def measure(
-    plan: Plan, found: Mapping[Piece, Kept], jobs: int, reporter: Reporter
+    plan: Plan, found: Mapping[Piece, Kept], workers: int, reporter: Reporter
 ) -> tuple[dict[str, Kept], dict[str, str]]:
     """Key of each variant whose pieces are all finished: what is measured of it; what went wrong.
 
@@ -46,7 +46,7 @@ def measure(
     todo = [key for key, one in kept.items() if one.value is None]
     tasks: list[Task] = []
     owners: dict[str, Sequence[str]] = {}
-    size = min(_CHUNK, max(1, -(-len(todo) // (2 * jobs))))
+    size = min(_CHUNK, max(1, -(-len(todo) // (2 * workers))))
     for k in range(0, len(todo), size):
         name, own = f"norms {k + 1}", todo[k : k + size]
         arguments = (plan.store, [wanted[key] for key in own])
@@ -63,7 +63,7 @@ def measure(
                 store.save(MEASURED, key, value)
         bars.end(name, outcome.error is None)
 
-    run_tasks(tasks, jobs, bars, finished)
+    run_tasks(tasks, workers, bars, finished)
     if wrong and len(wrong) == len(wanted):
         raise ContactStudyError(next(iter(wrong.values())))
     made = {key: store.load(MEASURED, key) for key in todo if key not in wrong}

@@ -41,7 +41,7 @@ def render(results, out_dir, reporter):
 def test_all_files_are_written_and_found_again(tmp_path, monkeypatch):
     monkeypatch.setattr(driver, "render", render)
     study, out = load_study("patch_fields", TINY), tmp_path / "out"
-    results = run_study(study, out, jobs=1)
+    results = run_study(study, out, workers=1)
     names = ("surface_patch_0.vtu", "surface_below_0.vtu", "surface.pvd")
     files = [out / "fields" / name for name in names] + [out / "figures" / "patch.gif"]
     content = [path.read_bytes() for path in files]
@@ -57,7 +57,7 @@ def test_all_files_are_written_and_found_again(tmp_path, monkeypatch):
     assert stored["frame_position"].values == pytest.approx([1.81, 1.825, 1.84], abs=5e-3)
     # a lost file is made again, from the stored run, with the same bytes
     files[1].unlink()
-    run_study(study, out, jobs=1)
+    run_study(study, out, workers=1)
     assert [path.read_bytes() for path in files] == content
 
 

@@ -92,7 +92,7 @@ def test_every_problem_at_once(tmp_path):
 
 def test_cylinder_on_the_crown_is_hertz(study, tmp_path):
     loaded = load_study(study)
-    data = run_study(loaded, tmp_path / "out", jobs=1).runs["right"]
+    data = run_study(loaded, tmp_path / "out", workers=1).runs["right"]
     exact = hertz_contact(67.4e3, contact_modulus(), 0.46, 0.3)
     print(f"Hertz {exact}\ncomputed {data.isel(row=0)}")
     assert data.sizes["row"] == 2
@@ -225,7 +225,7 @@ def test_commands(study, tmp_path, capsys):
 def test_positions_over_loads_follow_hertz(study, tmp_path):
     """Peak pressure over the load as F^(1/3), approach as F^(2/3); figures and report are there."""
     loads = [2e4, 1.6e5]
-    data = cs.sweep(study, {"positions.load": loads}, out=tmp_path / "out", jobs=1)
+    data = cs.sweep(study, {"positions.load": loads}, out=tmp_path / "out", workers=1)
     for name, power in (("peak_pressure", 1 / 3), ("approach", 2 / 3)):
         found = data[f"{name}_largest"]
         assert found.dims == ("positions.load", "run")

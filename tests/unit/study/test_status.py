@@ -61,5 +61,5 @@ def test_the_time_left_follows_from_what_others_took(law, tmp_path, capsys, took
     seconds = f'"seconds": {{"setup": 0.0, "stepping": {took}'
     slips[0].write_text(text[:start] + seconds + text[end:])
     plan = out / "runs/plan.json"
-    plan.write_text(plan.read_text().replace('"jobs": 1', '"jobs": 2'))
+    plan.write_text(plan.read_text().replace('"workers": 1', '"workers": 2'))
     assert told(capsys, out)[-1] == f"left: 4 runs, about {expected} with 2 at a time"

@@ -139,7 +139,7 @@ def test_what_is_missing_is_named():
 
 def test_verify_writes_everything_and_keeps_what_is_finished(registered, tmp_path, capsys):
     registered(FakeCase("good", ""), FakeCase("long", "", slow=True))
-    assert cli.main(["verify", "--quick", "--jobs", "1", "--out", str(tmp_path)]) == 0
+    assert cli.main(["verify", "--quick", "--workers", "1", "--out", str(tmp_path)]) == 0
     out = capsys.readouterr()
     assert out.out.strip().endswith("verification.pdf")
     assert "good: 1 of 1 checks within their bands, 1 reported without a band" in out.err
@@ -150,7 +150,7 @@ def test_verify_writes_everything_and_keeps_what_is_finished(registered, tmp_pat
     assert data["versions"]["contactstudy"] and len(data["code"]) == 16
     first = (tmp_path / "verification.pdf").read_bytes()
     assert (tmp_path / "figures" / "good_1.pdf").is_file()
-    assert cli.main(["verify", "--quick", "--jobs", "1", "--out", str(tmp_path)]) == 0
+    assert cli.main(["verify", "--quick", "--workers", "1", "--out", str(tmp_path)]) == 0
     assert CALLS == ["good"]  # the second time it was there
     assert (tmp_path / "verification.pdf").read_bytes() == first
 
@@ -166,7 +166,7 @@ def test_a_damaged_case_is_computed_again(registered, tmp_path):
 
 def test_a_check_that_fails_or_a_case_that_breaks_down_ends_with_1(registered, tmp_path, capsys):
     registered(FakeCase("bad", "fails"), FakeCase("worse", "breaks"), FakeCase("good", ""))
-    assert cli.main(["verify", "--jobs", "1", "--out", str(tmp_path)]) == 1
+    assert cli.main(["verify", "--workers", "1", "--out", str(tmp_path)]) == 1
     err = capsys.readouterr().err
     assert "bad: length: 1.1 m against 1 (closed form), +10 %; band 1 %" in err
     assert "worse: broke down: NumericalError: the active set does not settle" in err
@@ -175,13 +175,13 @@ def test_a_check_that_fails_or_a_case_that_breaks_down_ends_with_1(registered, t
 
 def test_an_interrupt_keeps_what_is_finished(registered, tmp_path):
     registered(FakeCase("good", ""), FakeCase("stopped", "stops"))
-    assert cli.main(["verify", "--jobs", "1", "--out", str(tmp_path)]) == 130
+    assert cli.main(["verify", "--workers", "1", "--out", str(tmp_path)]) == 130
     assert [path.name[:4] for path in (tmp_path / "cases").iterdir()] == ["good"]
 
 
 def test_cases_in_processes_of_their_own(tmp_path):
     chosen = (*select(cases.CASES, ("hertz_line",)), Case("gone", "nowhere:gone"))
-    apart = runner.run_cases(chosen, tmp_path, jobs=2)
+    apart = runner.run_cases(chosen, tmp_path, workers=2)
     assert [o.status for o in apart] == ["passed", "broke down"]
     assert "ModuleNotFoundError" in apart[1].reason
     here = chosen[0].load()()

@@ -18,8 +18,8 @@ from contactstudy.study.loading import load_study
 from contactstudy.study.plan import plan_study
 
 
-def swept(path, out, jobs=1, **options):
-    return run_study(load_study(path, **options), out, jobs)
+def swept(path, out, workers=1, **options):
+    return run_study(load_study(path, **options), out, workers)
 
 
 def test_a_grid_is_the_law(law, tmp_path):
@@ -80,9 +80,9 @@ def test_equal_pieces_are_computed_once_and_finished_ones_never_again(law, tmp_p
 @pytest.mark.parametrize("word", ["", "batch"])
 def test_bytes_do_not_depend_on_workers_order_or_batches(law, tmp_path, word, monkeypatch):
     path = law('[sweep]\n"law.seed" = "1 to 40"\n', f'word = "{word}"')
-    outs = [tmp_path / f"{jobs}" for jobs in (1, 3)]
-    for jobs, out in zip((1, 3), outs, strict=True):
-        swept(path, out, jobs)
+    outs = [tmp_path / f"{workers}" for workers in (1, 3)]
+    for workers, out in zip((1, 3), outs, strict=True):
+        swept(path, out, workers)
         monkeypatch.setattr(tasks, "BATCH", 7)
     for name in ("result.nc", "sweep.csv", "report.pdf"):
         one, other = ((out / name).read_bytes() for out in outs)
@@ -187,7 +187,7 @@ def test_series_from_the_command_line_and_from_python(law, tmp_path, capsys):
     assert cli.main(["check", str(path), *sweep]) == 0
     assert "6 variants with 12 runs, of which 7 differ" in capsys.readouterr().out
     assert cli.main(["run", str(path), *sweep, "--out", out, "-j", "1"]) == 0
-    data = cs.sweep(path, {"law.x": "1 m to 3 m by 1 m", "law.order": [1, 2]}, out=out, jobs=1)
+    data = cs.sweep(path, {"law.x": "1 m to 3 m by 1 m", "law.order": [1, 2]}, out=out, workers=1)
     np.testing.assert_allclose(data["largest"].sel(run="power"), [[6, 6], [7, 9], [8, 14]])
     # a key that is set is no axis any more
     assert not hasattr(load_study(path, {"law.x": 2.0}), "designs")
