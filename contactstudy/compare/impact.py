@@ -102,15 +102,12 @@ class Impact:
 
     Attributes
     ----------
-    peak : float
-        Largest force in N.
     lost_time, lost_length : float
         How long, and over what length, there is no contact, in s and m.
     impulse : float
         Time integral of what the force exceeds its static value by, in N s.
     """
 
-    peak: float
     lost_time: float
     lost_length: float
     impulse: float
@@ -121,7 +118,6 @@ def impact(times: Array, positions: Array, force: Array, static: float) -> Impac
     open_ = (force <= 0.0).astype(float)
     above = np.maximum(force - static, 0.0)
     return Impact(
-        float(force.max()),
         float(np.trapezoid(open_, times)),
         float(np.trapezoid(open_, positions)),
         float(np.trapezoid(above, times)),

@@ -18,7 +18,7 @@ from contactstudy.study.axes.shown import Shown, drawn
 if TYPE_CHECKING:
     import xarray as xr
 
-WIDE = 30.0
+WIDE = 20.0
 """Ratio of the largest to the smallest value from which a scale is logarithmic."""
 
 

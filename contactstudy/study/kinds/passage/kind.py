@@ -28,6 +28,9 @@ class PassageKind(Kind):
         Quantity("relative_l2", f"Error of the {_NAME}, {{part}} part (%)", _PART, 100.0),
         Quantity("relative_l2", f"Error of the {_NAME}, total (%)", _TOTAL, 100.0),
         Quantity("largest", f"Largest {_NAME} (kN)", {"signal": (_FORCE,)}, 1e-3),
+        Quantity("lost_time", "Time without contact (ms)", {}, 1e3),
+        Quantity("lost_length", "Way without contact (mm)", {}, 1e3),
+        Quantity("impulse", "Impulse beyond the static load (N s)"),
         Quantity("from_finest", f"Difference of the {_NAME} from the finest (%)", _PART, 100.0),
     )
     files = (FIELDS,)

@@ -7,6 +7,7 @@
     static, smallest, largest (run, signal)       at rest, and behind the fade-in
     root_mean_square (run, signal, part)          of the dynamic and the irregularity's part
     contact_lost (run)                            share of the way without contact
+    of defects also those of `contactstudy.study.kinds.passage.impacts`
 
 Parts are total, dynamic, and with ``compare.smooth`` irregularity, as in
 `contactstudy.study.kinds.passage.metrics`.
@@ -22,6 +23,7 @@ import numpy as np
 from contactstudy.arrays import Array
 from contactstudy.compare.signals import position
 from contactstudy.study.axes.measured import Measured, measured
+from contactstudy.study.kinds.passage.impacts import closed_forms, impacts
 from contactstudy.study.kinds.passage.metrics import compare_runs, parts_of
 from contactstudy.study.kinds.passage.schema import Study
 from contactstudy.study.kinds.passage.twins import SMOOTH, with_twins
@@ -61,7 +63,9 @@ def measure(study: Study, found: Mapping[str, Any]) -> Measured:
                 for variable, (_, dims) in _ERRORS.items():
                     value = entry[variable] if dims == _RUN else _by_part(entry, variable)
                     made[variable]["values"].setdefault(name, {})[signal] = value
-    return {name: entry for name, entry in made.items() if entry["values"]}
+    for name, force in closed_forms(study).items():
+        made["largest"]["values"][name] = {"contact_force": force}
+    return {name: entry for name, entry in made.items() if entry["values"]} | impacts(study, runs)
 
 
 def against_finest(study: Study, found: Mapping[str, Any], finest: Mapping[str, Any]) -> Measured:
