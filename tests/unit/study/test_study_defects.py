@@ -73,7 +73,7 @@ def test_the_shipped_studies_find_what_the_literature_says(tmp_path):
     """A. Pieringer, W. Kropp, J. C. O. Nielsen, Wear 314 (2014) 262: a Hertz spring that is fed
     the trajectory overestimates a flat's peak slightly, and fed the profile it can be badly wrong.
     """
-    results = run_study(load_study("defects", quick=True), tmp_path, jobs=1, quick=True)
+    results = run_study(load_study("defects", quick=True), tmp_path, workers=1, quick=True)
     force = results.groups["sweep"]["largest"].sel(signal="contact_force").squeeze()
     peak = {name: force.sel(run=name).values for name in force["run"].values.tolist()}
     print(force.to_pandas() / 1e3)
