@@ -72,7 +72,7 @@ class Flat(LocalDefect):
 
     A chord of length l on the circle of radius R, ``R - R cos(asin(l/2R))`` = l^2/8R deep. On a
     cylindrical tread it goes all across; on another its outline is where the plane leaves the
-    wheel, an ellipse.
+    wheel: an ellipse where the tread is convex, widening to the sides where it is hollow.
     """
 
     length: Annotated[q.Length, AtMost(0.5), Key("wheel_defect_length"), "along the tread"] = 0.04
