@@ -37,7 +37,7 @@ def rail_hexahedra(cell: CellRecipe, slices: int) -> Hexahedra:
     section = section_mesh_of(cell)
     n, planes = len(section.nodes), np.arange(slices + 1)
     nodes = np.empty((len(planes), n, 3))
-    nodes[:, :, 0] = (cell.length / cell.n_slices * (planes - 0.5 * slices))[:, None]
+    nodes[:, :, 0] = (cell.thickness * (planes - 0.5 * slices))[:, None]
     nodes[:, :, 1:] = section.nodes
     q = section.quads
     # corners 0 3 7 4 on one plane, 1 2 6 5 on the next, as `solids.extrusion.extrude`

@@ -96,7 +96,7 @@ def press_mesh(
         If the slices do not divide the length, the rail is shorter than the contact zone, or the
         sections and the position do not belong together.
     """
-    thickness = cell.length / cell.n_slices
+    thickness = cell.thickness
     slices = round(length / thickness)
     problems = _contradictions(cell, wheel, geometry)
     if abs(slices * thickness - length) > 1e-9 * length:

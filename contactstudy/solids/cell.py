@@ -8,8 +8,9 @@ import scipy.sparse as sp
 
 from contactstudy.arrays import Array
 from contactstudy.profiles.rail import rail_profile
-from contactstudy.solids.chain import BlockTridiagonal, Slice, chain_blocks
+from contactstudy.solids.chain import Slice
 from contactstudy.solids.extrusion import ExtrudedSlice, extrude
+from contactstudy.solids.held_cell import HeldCell
 from contactstudy.solids.interface import interface_basis
 from contactstudy.solids.mapped import Grading
 from contactstudy.solids.recipe import CellRecipe
@@ -86,7 +87,7 @@ def section_of(recipe: CellRecipe) -> tuple[SectionMesh, ExtrudedSlice, SectionR
     section = section_mesh_of(recipe)
     piece = extrude(
         section,
-        recipe.length / recipe.n_slices,
+        recipe.thickness,
         recipe.youngs_modulus,
         recipe.poisson_ratio,
         recipe.density,
@@ -106,9 +107,10 @@ def condense(recipe: CellRecipe) -> RailCell:
     """
     _, piece, rows = section_of(recipe)
     ns, ny, m = recipe.n_slices, len(rows.surface_y), recipe.interface_modes
-    response = window_response(piece.stiffness, ns, rows)
+    held = HeldCell(piece, ns)
+    response = window_response(held, rows)
     basis = interface_basis(response, rows, piece.free % 3 == 0, m)
-    shapes = _cell_shapes(piece, ns, basis, recipe.internal_modes)
+    shapes = _cell_shapes(held, basis, recipe.internal_modes)
     stiffness = _project(piece.stiffness, shapes)
     mass = _project(piece.mass, shapes)
     surface_map = np.stack([rows.surface @ T for T in shapes])
@@ -150,41 +152,35 @@ def condense(recipe: CellRecipe) -> RailCell:
     )
 
 
-def _cell_shapes(piece: ExtrudedSlice, ns: int, basis: Array, n_internal: int) -> list[Array]:
+def _cell_shapes(held: HeldCell, basis: Array, n_internal: int) -> list[Array]:
     """Displacement of every plane for unit coordinates: constraint and fixed-interface modes."""
     n, m = basis.shape
-    slices = [piece.stiffness] * ns
-    diagonal, upper = chain_blocks(slices)
-    factor = BlockTridiagonal(diagonal[1:-1], upper[1:-1])
     # interior of the constraint modes: K_ii u_i = -K_ib Psi
-    rhs = [np.zeros((n, 2 * m)) for _ in range(ns - 1)]
-    rhs[0][:, :m] -= upper[0].T @ basis
-    rhs[-1][:, m:] -= upper[-1] @ basis
-    interior = factor.solve(rhs)
-    modes = _fixed_interface_modes(piece, ns, factor, n_internal)
+    rhs = [np.zeros((n, 2 * m)) for _ in range(held.n_slices - 1)]
+    rhs[0][:, :m] -= held.coupling.T @ basis
+    rhs[-1][:, m:] -= held.coupling @ basis
+    interior = held.solve(rhs)
+    modes = _fixed_interface_modes(held, n_internal)
     left = np.hstack([basis, np.zeros((n, n_internal + m))])
     right = np.hstack([np.zeros((n, m + n_internal)), basis])
     inner = [np.hstack([u[:, :m], v, u[:, m:]]) for u, v in zip(interior, modes, strict=True)]
     return [left, *inner, right]
 
 
-def _fixed_interface_modes(
-    piece: ExtrudedSlice, ns: int, factor: BlockTridiagonal, count: int
-) -> list[Array]:
+def _fixed_interface_modes(held: HeldCell, count: int) -> list[Array]:
     """Lowest vibration modes of a cell with both interfaces held (Craig and Bampton 1968)."""
     from scipy.sparse.linalg import LinearOperator, eigsh
 
-    n = len(piece.free)
+    n, ns, M = len(held.mirror), held.n_slices, held.piece.mass
     if count == 0:
         return [np.zeros((n, 0))] * (ns - 1)
-    M = piece.mass
     eye = sp.identity(ns - 1)
     shift = sp.diags_array(np.ones(ns - 2), offsets=1, shape=(ns - 1, ns - 1))
     coupling = sp.kron(shift, sp.csr_array(M.ab))
     mass = (sp.kron(eye, sp.csr_array(M.bb + M.aa)) + coupling + coupling.T).tocsr()
 
     def solve(b: Array) -> Array:
-        return np.concatenate(factor.solve(list(b.reshape(ns - 1, n, 1)))).ravel()
+        return np.concatenate(held.solve(list(b.reshape(ns - 1, n, 1)))).ravel()
 
     N = mass.shape[0]
     _, V = eigsh(

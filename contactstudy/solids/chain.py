@@ -10,6 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.linalg as sl
+import scipy.sparse as sp
+from scipy.linalg.lapack import dpotri
 
 from contactstudy.arrays import Array
 from contactstudy.exceptions import NumericalError
@@ -63,10 +65,29 @@ def repeat(piece: Slice, count: int) -> Slice:
         power = merge(power, power)
 
 
-class BlockTridiagonal:
-    """Cholesky factor of a symmetric positive definite block-tridiagonal matrix.
+def inverse(A: Array, where: str) -> Array:
+    """Inverse of a symmetric positive definite matrix (n, n).
 
-    Of its diagonal blocks (n_i, n_i) and the blocks (i, i+1) above them, (n_i, n_{i+1}).
+    Raises
+    ------
+    NumericalError
+        If it is not positive definite; `where` says what it is.
+    """
+    P, _ = dpotri(_cholesky(A, where), lower=1, overwrite_c=1)
+    return np.asarray(np.tril(P) + np.tril(P, -1).T)
+
+
+def taken(E: Array | sp.csr_array, P: Array) -> Array:
+    """What an eliminated plane takes from the stiffness of the next one: E^T P E, P symmetric."""
+    return np.asarray(E.T @ np.ascontiguousarray((E.T @ P).T))
+
+
+class BlockTridiagonal:
+    """Elimination of a symmetric positive definite block-tridiagonal matrix.
+
+    Of its diagonal blocks (n_i, n_i) and the blocks (i, i+1) above them, (n_i, n_{i+1}). Both may
+    be sparse but for the first: with the inverse of a pivot, n^3 operations, the next pivot costs
+    of the order of n^2 only, where a Cholesky factor would fill up.
 
     Raises
     ------
@@ -74,29 +95,24 @@ class BlockTridiagonal:
         If a pivot block is not positive definite.
     """
 
-    def __init__(self, diagonal: Sequence[Array], upper: Sequence[Array]) -> None:
-        # D'_0 = D_0,  D'_{i+1} = D_{i+1} - E_i^T D'_i^-1 E_i,  D'_i = L_i L_i^T,  Y_i = L_i^-1 E_i
-        self._L: list[Array] = []
-        self._Y: list[Array] = []
-        pivot = np.asarray(diagonal[0])
-        for i in range(len(diagonal)):
-            L = _cholesky(pivot, f"block {i} of {len(diagonal)}")
-            self._L.append(L)
-            if i + 1 < len(diagonal):
-                Y = sl.solve_triangular(L, upper[i], lower=True, check_finite=False)
-                self._Y.append(Y)
-                pivot = diagonal[i + 1] - Y.T @ Y
+    def __init__(
+        self,
+        diagonal: Sequence[Array | sp.csr_array],
+        upper: Sequence[Array | sp.csr_array],
+    ) -> None:
+        # P_0 = D_0^-1,  P_{i+1} = (D_{i+1} - E_i^T P_i E_i)^-1
+        self._E, self._P = upper, list[Array]()
+        for i, D in enumerate(diagonal):
+            pivot = D - taken(upper[i - 1], self._P[-1]) if i else D
+            self._P.append(inverse(pivot, f"block {i} of {len(diagonal)}"))
 
     def solve(self, rhs: Sequence[Array]) -> list[Array]:
         """Solve for right-hand sides given block by block, each of shape (n_i, k)."""
-        forward: list[Array] = []
-        for i, L in enumerate(self._L):
-            b = rhs[i] if i == 0 else rhs[i] - self._Y[i - 1].T @ forward[i - 1]
-            forward.append(sl.solve_triangular(L, b, lower=True, check_finite=False))
-        x: list[Array] = forward
-        for i in range(len(self._L) - 1, -1, -1):
-            b = forward[i] if i + 1 == len(self._L) else forward[i] - self._Y[i] @ x[i + 1]
-            x[i] = sl.solve_triangular(self._L[i], b, lower=True, trans="T", check_finite=False)
+        x: list[Array] = []
+        for i, P in enumerate(self._P):
+            x.append(P @ (rhs[i] - self._E[i - 1].T @ x[-1] if i else rhs[i]))
+        for i in range(len(x) - 2, -1, -1):
+            x[i] = x[i] - self._P[i] @ (self._E[i] @ x[i + 1])
         return x
 
 

@@ -62,3 +62,8 @@ class CellRecipe(Parameters):
     def n_slices(self) -> int:
         """Slices of a cell: the length in elements of about the running surface's size."""
         return max(4, round(self.length / self.size))
+
+    @property
+    def thickness(self) -> float:
+        """Length of a slice in m."""
+        return self.length / self.n_slices

@@ -5,11 +5,12 @@ tangential in the sense of growing angle), so that the matrices of a slice depen
 between its planes only.
 """
 
+from dataclasses import dataclass
+
 import numpy as np
 import scipy.sparse as sp
 
-from contactstudy.arrays import Array
-from contactstudy.solids.chain import Slice
+from contactstudy.arrays import Array, BoolArray
 from contactstudy.solids.hexahedron import hex_mass, hex_stiffness
 from contactstudy.solids.wheel_section import WheelSection
 
@@ -31,13 +32,27 @@ def slice_mass(section: WheelSection, angle: float, density: float) -> sp.csr_ar
     return _assembled(section, angle, hex_mass(_corners(section, angle), density))
 
 
+@dataclass(frozen=True)
+class SparseSlice:
+    """Blocks (n, n) of a slice's stiffness in N/m, see `Slice`."""
+
+    aa: sp.csr_array
+    ab: sp.csr_array
+    bb: sp.csr_array
+
+
 def ring_slice(
-    section: WheelSection, angle: float, youngs_modulus: float, poisson_ratio: float
-) -> Slice:
-    """Blocks (3n, 3n) of `slice_stiffness`."""
+    section: WheelSection,
+    angle: float,
+    youngs_modulus: float,
+    poisson_ratio: float,
+    free: BoolArray,
+) -> SparseSlice:
+    """Blocks of `slice_stiffness` on the free (3n,) degrees of freedom of both planes."""
     K = slice_stiffness(section, angle, youngs_modulus, poisson_ratio)
-    n = K.shape[0] // 2
-    return Slice(K[:n, :n].toarray(), K[:n, n:].toarray(), K[n:, n:].toarray())
+    a = np.flatnonzero(free)
+    b = a + len(free)
+    return SparseSlice(K[a][:, a], K[a][:, b], K[b][:, b])
 
 
 def _corners(section: WheelSection, angle: float) -> Array:

@@ -14,11 +14,12 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
+import scipy.sparse as sp
 
 from contactstudy.arrays import Array, BoolArray, IntArray
 from contactstudy.profiles.named import rail_curve, wheel_curve
 from contactstudy.solids.chain import BlockTridiagonal, Slice, repeat
-from contactstudy.solids.ring import ring_slice
+from contactstudy.solids.ring import SparseSlice, ring_slice
 from contactstudy.solids.wheel_recipe import WheelRecipe
 from contactstudy.solids.wheel_section import WheelSection
 
@@ -110,20 +111,19 @@ def elastic_wheel(recipe: WheelRecipe) -> WheelFlexibility:
 
 def _slices(
     recipe: WheelRecipe, section: WheelSection, free: BoolArray
-) -> tuple[list[Slice], Slice]:
+) -> tuple[list[SparseSlice], Slice]:
     """Slices from the bottom up, and the arc over the top to the mirror image of the last plane."""
     steps = [round(float(step), 12) for step in np.diff(recipe.angles)]
-    at = np.ix_(free, free)
-    pieces: dict[float, Slice] = {}
-    for step in set(steps):
-        whole = ring_slice(section, step, recipe.youngs_modulus, recipe.poisson_ratio)
-        pieces[step] = Slice(whole.aa[at], whole.ab[at], whole.bb[at])
+    material = recipe.youngs_modulus, recipe.poisson_ratio
+    pieces = {step: ring_slice(section, step, *material, free) for step in set(steps)}
     n_near = len(steps) - recipe.n_far
-    far = repeat(pieces[steps[-1]], 2 * recipe.n_far)
+    last = pieces[steps[-1]]
+    full = Slice(last.aa.toarray(), last.ab.toarray(), last.bb.toarray())
+    far = repeat(full, 2 * recipe.n_far)
     return [pieces[step] for step in steps[:n_near]], far
 
 
-def _half_ring(near: list[Slice], far: Slice, loads: list[Array], sign: Array) -> list[Array]:
+def _half_ring(near: list[SparseSlice], far: Slice, loads: list[Array], sign: Array) -> list[Array]:
     """Displacements (n, planes * ny) of the loaded planes under the loads' part of one symmetry.
 
     Of unit forces (ny, n) at the tread nodes of each loaded plane; `sign` (n,) multiplies the
@@ -133,13 +133,13 @@ def _half_ring(near: list[Slice], far: Slice, loads: list[Array], sign: Array) -
     # half of the arc's energy belongs to this half of the ring
     top = 0.5 * (far.aa + far.ab * sign + sign[:, None] * far.ab.T + sign[:, None] * far.bb * sign)
     moving = np.flatnonzero(sign > 0)  # in the plane of symmetry itself
-    diagonal = [near[0].aa[np.ix_(moving, moving)]]
+    diagonal: list[Array | sp.csr_array] = [near[0].aa[moving][:, moving]]
     diagonal += [a.bb + b.aa for a, b in pairwise(near)]
     diagonal.append(near[-1].bb + top)
     upper = [near[0].ab[moving]] + [piece.ab for piece in near[1:]]
     # from the top down, so that the loaded planes are eliminated last
     factor = BlockTridiagonal(diagonal[::-1], [ab.T for ab in upper[::-1]])
-    rhs = [np.zeros((len(block), n_loaded * ny)) for block in diagonal]
+    rhs = [np.zeros((block.shape[0], n_loaded * ny)) for block in diagonal]
     for i, load in enumerate(loads):
         # half of the load belongs to this symmetry
         rhs[i][:, i * ny : (i + 1) * ny] = 0.5 * (load.T if i else load.T[moving])

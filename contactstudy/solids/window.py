@@ -10,8 +10,9 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.linalg as sl
 
-from contactstudy.arrays import Array, IntArray
-from contactstudy.solids.chain import BlockTridiagonal, Slice, chain_blocks, repeat
+from contactstudy.arrays import Array
+from contactstudy.solids.chain import BlockTridiagonal, chain_blocks, merge, repeat
+from contactstudy.solids.held_cell import HeldCell
 from contactstudy.solids.section_rows import SectionRows
 
 MARGIN = 3  # cells on each side of the two loaded ones
@@ -46,56 +47,62 @@ class WindowResponse:
     interfaces: Array
 
 
-def window_response(piece: Slice, n_slices: int, rows: SectionRows) -> WindowResponse:
-    """Solve the window for loads on its middle: responses in m/N.
-
-    `piece` is the stiffness of one slice in N/m, of `n_slices` to a cell.
-    """
-    cell = repeat(piece, n_slices)
-    beyond = repeat(cell, MARGIN)
-    factor = BlockTridiagonal(*chain_blocks([piece] * (2 * n_slices), beyond.bb, beyond.aa))
-    # some planes of loads at a time, which keeps the memory small
-    groups = np.array_split(np.arange(n_slices + 1), max(1, (n_slices + 1) // _AT_ONCE))
-    parts = [_loaded(factor, group, n_slices, rows) for group in groups]
-    # the columns of a part are (contact, foot, planes of the group), each motion of the foot apart
-    surface, centre, own = (np.concatenate([p[i] for p in parts], axis=-1) for i in range(3))
-    planes = np.concatenate([p[3] for p in parts], axis=-1)
-    feet = np.concatenate([p[4] for p in parts], axis=-1)
-    kept = np.concatenate([planes, feet.reshape(*feet.shape[:2], -1)], axis=-1)
+def window_response(cell: HeldCell, rows: SectionRows) -> WindowResponse:
+    """Solve the window for loads on its middle: responses in m/N."""
+    ns, n, ny, nm = cell.n_slices, len(rows.weights), len(rows.surface_y), len(rows.foot)
+    # none of these loads is axial: mirrored, they are those of the mirrored plane
+    B = np.vstack([rows.surface, rows.foot, rows.centre]).T
+    nb = B.shape[1]
+    own, left, right = _held_response(cell, B)
+    one = repeat(cell.piece.stiffness, ns)
+    before = repeat(one, MARGIN - 1)
+    beyond = merge(before, one)
+    factor = BlockTridiagonal(*chain_blocks([one, one], beyond.bb, beyond.aa))
+    kept = np.stack(factor.solve([left, right, np.zeros_like(left)]))
+    # the cell with the loads: own response and that to its end planes' motion; the cell after it
+    first = (own + left.T @ kept[0] + right.T @ kept[1]).reshape(ns + 1, nb, ns + 1, nb)
+    second = (left.T @ kept[1] + right.T @ kept[2]).reshape(ns + 1, nb, ns + 1, nb)
+    u = np.concatenate([first, second[1:]])
+    contact, foot, mean = slice(ny), slice(ny, ny + nm), ny + nm
+    p = np.arange(ns + 1)
+    planes = kept.reshape(3, n, ns + 1, nb)
+    feet = np.swapaxes(planes[..., foot], 2, 3)
+    kept = np.concatenate([x.reshape(3, n, -1) for x in (planes[..., contact], feet)], axis=-1)
     # the neighbouring interfaces follow from the cells beyond: (beyond' + K_aa) u_2 = -K_ab u_3
-    before = repeat(cell, MARGIN - 1)
-    left = -sl.solve(before.bb + cell.aa, cell.ab @ kept[0], assume_a="pos")
-    right = -sl.solve(before.aa + cell.bb, cell.ab.T @ kept[2], assume_a="pos")
-    return WindowResponse(surface, centre, own, np.stack([left, *kept, right]))
-
-
-def _loaded(
-    factor: BlockTridiagonal, group: IntArray, n_slices: int, rows: SectionRows
-) -> tuple[Array, Array, Array, Array, Array]:
-    """Responses to loads on a group of planes: surface, centre, own centre of `WindowResponse`.
-
-    Then the displacements of the window's first, middle and last plane under the contact loads,
-    (3, n, len(group)*ny), and under those on the foot, (3, n, nm, len(group)).
-    """
-    n, ny, nm, k = len(rows.weights), len(rows.surface_y), len(rows.foot), len(group)
-    others = np.vstack([rows.foot, rows.centre[:1]]).T
-    rhs = [np.zeros((n, k * (ny + nm + 1))) for _ in range(2 * n_slices + 1)]
-    for j, p in enumerate(group):
-        rhs[p][:, j * ny : (j + 1) * ny] = rows.surface.T
-        rhs[p][:, k * ny + j :: k] = others
-    u = factor.solve(rhs)
-    contact, foot = slice(0, k * ny), slice(k * ny, k * (ny + nm))
-    load = k * (ny + nm) + np.arange(k)
-    ends = np.stack([u[0], u[n_slices], u[-1]])
-    return (
-        np.stack([rows.surface @ x[:, contact] for x in u]),
-        np.stack([rows.centre @ x[:, contact] for x in u]),
-        np.array(
-            [
-                [rows.centre[0] @ u[p + q][:, c] for p, c in zip(group, load, strict=True)]
-                for q in (0, 1)
-            ]
-        ),
-        ends[:, :, contact],
-        ends[:, :, foot].reshape(3, n, nm, k),
+    outer_left = -sl.solve(before.bb + one.aa, one.ab @ kept[0], assume_a="pos")
+    outer_right = -sl.solve(before.aa + one.bb, one.ab.T @ kept[2], assume_a="pos")
+    return WindowResponse(
+        u[:, contact, :, contact].reshape(2 * ns + 1, ny, -1),
+        u[:, mean:, :, contact].reshape(2 * ns + 1, nm, -1),
+        np.stack([u[p, mean, p, mean], u[p + 1, mean, p, mean]]),
+        np.stack([outer_left, *kept, outer_right]),
     )
+
+
+def _held_response(cell: HeldCell, B: Array) -> tuple[Array, Array, Array]:
+    """Loads B (n, nb) on every plane of a cell whose end planes are held.
+
+    Displacements B^T u of all planes, ((ns+1)*nb, (ns+1)*nb), and what goes to the left and to the
+    right end plane, (n, (ns+1)*nb).
+    """
+    ns, (n, nb) = cell.n_slices, B.shape
+    own = np.zeros((ns + 1, nb, ns + 1, nb))
+    left, right = np.zeros((n, ns + 1, nb)), np.zeros((n, ns + 1, nb))
+    left[:, 0], right[:, ns] = B, B
+    R, E = cell.mirror, cell.coupling
+    # loads on the right half are those on the left one, mirrored; some planes of loads at a time,
+    # which keeps the memory small
+    half = np.arange(1, ns // 2 + 1)
+    for group in np.array_split(half, max(1, len(half) // _AT_ONCE)):
+        rhs = [np.zeros((n, len(group) * nb)) for _ in range(ns - 1)]
+        for i, j in enumerate(group):
+            rhs[j - 1][:, i * nb : (i + 1) * nb] = B
+        u = cell.solve(rhs)
+        moved = np.stack([B.T @ x for x in u]).reshape(ns - 1, nb, len(group), nb)
+        own[1:-1, :, group] = moved
+        own[1:-1, :, ns - group] = moved[::-1]
+        to_left, to_right = (-(A @ x).reshape(n, -1, nb) for A, x in ((E, u[0]), (E.T, u[-1])))
+        left[:, group], right[:, group] = to_left, to_right
+        left[:, ns - group], right[:, ns - group] = R[..., None] * to_right, R[..., None] * to_left
+    size = (ns + 1) * nb
+    return own.reshape(size, size), left.reshape(n, size), right.reshape(n, size)

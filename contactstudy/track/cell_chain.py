@@ -32,7 +32,7 @@ class CellChain:
     @property
     def thickness(self) -> float:
         """Length of a slice of the mesh [m]."""
-        return self.cell.recipe.length / self.cell.recipe.n_slices
+        return self.cell.recipe.thickness
 
     @property
     def step(self) -> int:

@@ -45,7 +45,7 @@ class AssembledMesh(AssembledTrack):
     def thickness(self) -> float:
         """Length of a slice of the mesh [m]."""
         recipe = cast(MeshedTrack, self).recipe
-        return recipe.length / recipe.n_slices
+        return recipe.thickness
 
     def top_load_compliance(self, x: Array) -> Array:
         """See `DiscreteTrack`."""

@@ -54,7 +54,7 @@ def _passage(support: Support) -> _Passage:
     wheel = elastic_wheel(WheelRecipe(size=SIZE))
     profile = iso_3095_profile(1, (0.016, 0.4))
     # whole parts of a slice, so that the mesh's own ripple is no matter
-    step = recipe.length / recipe.n_slices / 2
+    step = recipe.thickness / 2
     journey = Journey(start=0.3, end=0.9, speed=SPEED, time_step=step / SPEED, fade_in=0.08)
     forces, dofs = [], []
     # both rails have the mesh's own phase under the wheel (`mean_phase` is off)

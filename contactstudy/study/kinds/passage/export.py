@@ -85,7 +85,7 @@ def export_press(
         f"wheel load {newtons:.6g} N on the hub{' (half of it here)' * mesh.symmetric}, penalty "
         f"{study.solid.penalty:.6g} Pa/m",
         f"rail {cell.profile}, {length:g} m, clamped at both ends; elements of {cell.size:g} m, "
-        f"slices of {cell.length / cell.n_slices:g} m; {len(mesh.rail)} elements",
+        f"slices of {cell.thickness:g} m; {len(mesh.rail)} elements",
         f"wheel {wheel.profile}, radius {wheel.dimensions.radius:g} m, elements of "
         f"{wheel.size:g} m; {len(mesh.wheel)} elements",
         f"E = {cell.youngs_modulus:.6g} Pa, nu = {cell.poisson_ratio:g}",
