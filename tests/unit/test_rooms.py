@@ -48,6 +48,7 @@ ORDER = (
     ("driver", "notebook"),
     ("advice",),
     ("verification/cases",),
+    ("commands",),
     ("cli", "__main__"),
 )
 LEVEL = {room: level for level, rooms in enumerate(ORDER) for room in rooms}

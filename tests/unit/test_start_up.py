@@ -22,7 +22,7 @@ def loaded(code: str) -> set[str]:
     [
         ("import contactstudy", {"numpy", "scipy"}),
         ("from contactstudy.solvers.point import point_contact", set()),
-        ("import contactstudy.cli", {"numpy", "scipy"}),
+        ("import contactstudy.commands", {"numpy", "scipy"}),
         (
             "from contactstudy import cli\n"
             "with contextlib.redirect_stdout(io.StringIO()):\n"

@@ -1,0 +1,41 @@
+"""Commands that say something of a study and run nothing."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from rich.console import Console
+
+from contactstudy.commands.options import Overrides, Quick, Sweep, errors
+
+
+def check(
+    study: str, *, overrides: Overrides = (), sweep: Sweep = (), quick: Quick = False
+) -> None:
+    """Validate a study; print resolved values, sizes and the expected time. Runs nothing.
+
+    Parameters
+    ----------
+    study
+        A TOML file, or the name of a shipped study.
+    """
+    from contactstudy.study.loading import load_study
+    from contactstudy.study.terminal import TerminalReporter, print_check
+
+    loaded = load_study(study, overrides, sweep=sweep, quick=quick)
+    with TerminalReporter(errors()) as reporter:
+        print_check(loaded, Console(), reporter, quick)
+
+
+def status(folder: Path) -> None:
+    """Say what of a study is done, failed and left, and how long that will take.
+
+    Parameters
+    ----------
+    folder
+        Where its results go, as given with --out.
+    """
+    from contactstudy.study.status import status as lines
+
+    for line in lines(folder):
+        print(line)

@@ -1,0 +1,48 @@
+"""Commands that list what there is: shipped studies, keys, what is cached."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from cyclopts import Parameter
+
+
+def studies() -> None:
+    """List the shipped studies."""
+    import tomllib
+
+    from contactstudy.study.loading import shipped_studies
+
+    shipped = shipped_studies()
+    width = max(map(len, shipped), default=0)
+    for name, path in shipped.items():
+        title = tomllib.loads(path.read_text("utf-8")).get("title", "")
+        print(f"{name:<{width}}  {title}")
+
+
+def keys() -> None:
+    """Print every key of study files with unit, default, limits and meaning, in Markdown."""
+    from contactstudy.study.keys import AXES, key_reference
+    from contactstudy.study.kind import KINDS, find_kind
+
+    for name in KINDS:
+        kind = find_kind(name)
+        inner = {f"{group}.NAME": table for group, table in kind.inner_tables.items()}
+        print(f"# {name.capitalize()}\n\n{kind.about}\n")
+        print(key_reference({**kind.tables, **inner}, kind.study))
+    print(AXES, end="")
+
+
+def cache(
+    *, clear: Annotated[bool, Parameter(negative="", help="Remove all of them.")] = False
+) -> None:
+    """Say where condensed bodies, and runs from Python, are kept, how many, and how large."""
+    from contactstudy.solids.cache import cache_directory, cache_store
+    from contactstudy.store import Store
+    from contactstudy.study.results import RUNS
+
+    runs = Store(cache_directory() / RUNS)
+    for store in (cache_store(), runs) if runs.folder.is_dir() else (cache_store(),):
+        if clear:
+            store.clear()
+        print(store.summary())
