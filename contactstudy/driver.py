@@ -12,7 +12,7 @@ from contactstudy.cluster import Cluster
 from contactstudy.exceptions import InputError
 from contactstudy.executor import at_once, check_workers
 from contactstudy.figures import write_figures
-from contactstudy.files import ensure_writable, file_digest
+from contactstudy.files import ensure_writable, file_digest, remove_unfinished
 from contactstudy.report import write_report
 from contactstudy.reporter import Quiet, Reporter
 from contactstudy.store import Store
@@ -69,6 +69,8 @@ def run_study(
     with reporter.stage("writing the results"):
         written = _write(results, out_dir)
     written += render(results, out_dir, reporter)
+    for folder in {path.parent for path in written}:
+        remove_unfinished(folder)
     if results.failures:
         return results  # they are tried again the next time
     sums = {p.relative_to(out_dir).as_posix(): file_digest(p) for p in written}

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import contextlib
+import functools
 import hashlib
 import os
+import platform
 import tempfile
 import time
 from collections.abc import Iterator
@@ -14,6 +16,7 @@ from contactstudy.exceptions import InputError
 
 #: Marks a temporary file as ours.
 _UNFINISHED = ".unfinished-"
+_ABANDONED = 3600.0  # s
 
 
 @contextlib.contextmanager
@@ -24,7 +27,7 @@ def writing(path: Path) -> Iterator[Path]:
     """
     with _said_of(path.parent):
         path.parent.mkdir(parents=True, exist_ok=True)
-        prefix = f"{_UNFINISHED}{path.stem}-"
+        prefix = f"{_UNFINISHED}{_node()}-{os.getpid()}-"
         handle, name = tempfile.mkstemp(dir=path.parent, prefix=prefix, suffix=path.suffix)
     os.close(handle)
     temporary = Path(name)
@@ -38,15 +41,36 @@ def writing(path: Path) -> Iterator[Path]:
         temporary.unlink(missing_ok=True)
 
 
-def remove_unfinished(directory: Path, stem: str = "", older_than: float = 0.0) -> None:
-    """Remove what writers left that were killed, of files whose name begins with `stem`.
+def remove_unfinished(directory: Path) -> None:
+    """Remove what writers left that were killed.
 
-    Only what nobody has written to for `older_than` seconds.
+    Of writers that may live, as those on other machines, what is an hour old.
     """
-    for path in directory.glob(f"{_UNFINISHED}{stem}*"):
+    for path in directory.glob(f"{_UNFINISHED}*"):
         with contextlib.suppress(FileNotFoundError):  # its writer has ended meanwhile
-            if path.stat().st_mtime <= time.time() - older_than:
+            if _has_ended(path) or path.stat().st_mtime <= time.time() - _ABANDONED:
                 path.unlink()
+
+
+def _has_ended(path: Path) -> bool:
+    """Whether the writer of an unfinished file was a process here that is no more."""
+    node, _, rest = path.name.removeprefix(_UNFINISHED).partition("-")
+    number = rest.partition("-")[0]
+    if os.name != "posix" or node != _node() or not number.isdecimal():
+        return False
+    try:
+        os.kill(int(number), 0)
+    except ProcessLookupError:
+        return True
+    except (OSError, OverflowError):  # somebody else's
+        return False
+    return False
+
+
+@functools.cache
+def _node() -> str:
+    """Stands for the machine in names of files."""
+    return hashlib.sha256(platform.node().encode()).hexdigest()[:8]
 
 
 @contextlib.contextmanager

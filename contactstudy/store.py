@@ -27,7 +27,6 @@ if TYPE_CHECKING:
 #: Attributes of a run that depend on the machine; they stay out of files that are compared.
 MACHINE_ATTRIBUTES = ("seconds_setup", "seconds_stepping", "peak_memory_mb")
 _OWN = re.compile(r".+-[0-9a-f]{16,32}\.(npz|nc|json)")
-_ABANDONED = 3600.0  # s
 
 
 class StoreWarning(UserWarning):
@@ -165,7 +164,7 @@ class Store:
 @functools.cache
 def _tidy(folder: Path) -> None:
     """Remove what killed writers left long ago; once, as looking through a folder takes time."""
-    remove_unfinished(folder, older_than=_ABANDONED)
+    remove_unfinished(folder)
 
 
 def digest(value: Any, length: int = 16) -> str:

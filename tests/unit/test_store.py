@@ -3,6 +3,7 @@
 import ast
 import os
 import re
+import select
 import shutil
 import subprocess
 import sys
@@ -14,7 +15,7 @@ import pytest
 import xarray as xr
 
 from contactstudy import code
-from contactstudy.files import remove_unfinished, writing
+from contactstudy.files import alone, remove_unfinished, writing
 from contactstudy.solids.cache import CachedBody, cache_store, cached, entry_path
 from contactstudy.store import ARRAYS, DATASET, Store, StoreWarning, store_key
 
@@ -131,25 +132,42 @@ def test_what_a_killed_writer_leaves_is_removed(tmp_path):
         "import os, sys, pathlib; from contactstudy.files import writing\n"
         "with writing(pathlib.Path(sys.argv[1])) as path: os.kill(os.getpid(), 9)"
     )
-    subprocess.run([sys.executable, "-c", script, str(tmp_path / "one-01.nc")], check=False)
+    command = [sys.executable, "-c", script, str(tmp_path / "one-01.nc")]
+    subprocess.run(command, check=False)
     (left,) = tmp_path.iterdir()
-    store = Store(tmp_path)
-    store.save("other", "0" * 16, 1)
-    assert left.exists()  # perhaps someone is still writing it
-    os.utime(left, (0, 0))
-    store.save("other", "0" * 16, 1)
-    assert left.exists()  # a process looks once
-    script_of_another = (
-        "import sys; from contactstudy.store import Store; from pathlib import Path\n"
+    with writing(tmp_path / "two.nc") as path:
+        Store(tmp_path).save("other", "0" * 16, 1)
+        assert path.exists() and not left.exists()
+    subprocess.run(command, check=False)
+    Store(tmp_path).save("other", "0" * 16, 2)
+    assert len(list(tmp_path.glob(".unfinished*"))) == 1  # a process looks once
+    remove_unfinished(tmp_path)
+    assert sorted(p.name for p in tmp_path.iterdir()) == [f"other-{'0' * 16}.json", "two.nc"]
+
+
+def test_one_process_at_a_time(tmp_path):
+    """A process that is killed gives way, and what it locked is left to the others."""
+    script = (
+        "import os, sys, time, pathlib; from contactstudy.files import alone\n"
+        "with alone(pathlib.Path(sys.argv[1])): print('in', flush=True); time.sleep(60)"
     )
-    script_of_another += "Store(Path(sys.argv[1])).save('other', '0' * 16, 1)"
-    subprocess.run([sys.executable, "-c", script_of_another, str(tmp_path)], check=True)
-    assert not left.exists()
-    subprocess.run([sys.executable, "-c", script, str(tmp_path / "one-01.nc")], check=False)
-    remove_unfinished(tmp_path, "two")
-    assert len(list(tmp_path.iterdir())) == 2
-    remove_unfinished(tmp_path, "one-01")
-    assert len(list(tmp_path.iterdir())) == 1
+    command = [sys.executable, "-c", script, str(tmp_path / "body.npz")]
+    first, second = (subprocess.Popen(command, stdout=subprocess.PIPE) for _ in range(2))
+    try:
+        inside, _, _ = select.select([first.stdout, second.stdout], [], [], 30)
+        assert len(inside) == 1
+        holder, waiter = (first, second) if inside[0] is first.stdout else (second, first)
+        assert select.select([waiter.stdout], [], [], 0.5)[0] == []
+        holder.kill()
+        assert waiter.stdout.readline() == b"in\n"
+    finally:
+        for process in (first, second):
+            process.kill()
+            process.wait()
+            process.stdout.close()
+    with alone(tmp_path / "body.npz"):
+        pass
+    assert list(tmp_path.iterdir()) == []
 
 
 RUN = "contactstudy.study.kinds.passage.execution"

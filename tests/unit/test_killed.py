@@ -1,0 +1,127 @@
+"""Commands that are killed or interrupted at any moment: the same command goes on from there."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+STUDY = """
+[track]
+length = "6 m"
+[irregularity]
+terms = 50
+[journey]
+from = "1.2 m"
+to = "3 m"
+time_step = "0.02 ms"
+fade_in = "0.6 m"
+[runs.point]
+solver = "point"
+[runs.hertz]
+solver = "point"
+law = "hertz"
+[runs.timoshenko]
+solver = "point"
+rail = "timoshenko"
+"""
+SWEEP = """
+[sweep]
+"irregularity.seed" = "1 to 4"
+"journey.speed" = ["200 km/h", "300 km/h"]
+"""
+
+
+def started(study: Path, out: Path) -> subprocess.Popen[str]:
+    return subprocess.Popen(
+        [sys.executable, "-m", "contactstudy.cli", "run", str(study), "--out", str(out)],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
+
+
+def finish(study: Path, out: Path) -> float:
+    """Seconds that the command takes."""
+    began = time.monotonic()
+    process = started(study, out)
+    _, err = process.communicate(timeout=300)
+    assert process.returncode == 0, err
+    return time.monotonic() - began
+
+
+def content(out: Path) -> dict[str, bytes]:
+    """Every file but what tells the time it took."""
+    found = {p.relative_to(out).as_posix(): p for p in out.rglob("*") if p.is_file()}
+    timed = {name for name in found if name.startswith("runs/") and name.endswith(".json")}
+    made = {name: found[name].read_bytes() for name in found.keys() - timed - {"metrics.json"}}
+    metrics = untimed(json.loads(found["metrics.json"].read_text("utf-8")))
+    return made | {
+        "metrics.json": json.dumps(metrics).encode(),
+        "slips": repr(sorted(timed)).encode(),
+    }
+
+
+def untimed(data: Any) -> Any:
+    if isinstance(data, dict):
+        timed = ("seconds", "peak_memory_mb")
+        return {key: untimed(value) for key, value in data.items() if key not in timed}
+    return data
+
+
+def same(found: dict[str, bytes], expected: dict[str, bytes]) -> None:
+    assert found.keys() == expected.keys()
+    assert [name for name in expected if found[name] != expected[name]] == []
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("sweep", ["", SWEEP], ids=["runs", "sweep"])
+def test_thirty_kills_and_a_byte_identical_end(tmp_path, sweep):
+    """Every second time with all its workers, every third time in the first half second."""
+    study = tmp_path / "study.toml"
+    study.write_text(STUDY + sweep)
+    seconds = finish(study, tmp_path / "at once")
+    expected, rng, killed, ends = content(tmp_path / "at once"), np.random.default_rng(1), 0, 0
+    out = tmp_path / "0"
+    while killed < 30:
+        process = started(study, out)
+        time.sleep(rng.uniform(0.0, 0.5 if killed % 3 == 0 else seconds))
+        if process.poll() is None:
+            if killed % 2:
+                os.killpg(process.pid, signal.SIGKILL)
+            else:
+                process.kill()
+            killed += 1
+        process.communicate()
+        if process.returncode == 0:  # it came to its end all the same: again from nothing
+            same(content(out), expected)
+            ends += 1
+            out = tmp_path / f"{ends}"
+    finish(study, out)
+    print(f"{killed} kills, {ends + 1} ends, {seconds:.1f} s without")
+    same(content(out), expected)
+
+
+@pytest.mark.slow
+def test_interrupts_in_the_first_moments(tmp_path):
+    """Ctrl-C as a terminal sends it, while the command starts: one line, and it goes on."""
+    study, out = tmp_path / "study.toml", tmp_path / "out"
+    study.write_text(STUDY)
+    for after in np.linspace(0.1, 1.5, 15):
+        process = started(study, out)
+        time.sleep(after)
+        os.killpg(process.pid, signal.SIGINT)
+        _, err = process.communicate(timeout=60)
+        assert process.returncode in (130, -signal.SIGINT)
+        if process.returncode == 130:  # Python itself had started
+            assert err.count("\n") == 1 and "the same command goes on from there" in err
+    finish(study, out)
+    finish(study, tmp_path / "at once")
+    same(content(out), content(tmp_path / "at once"))
