@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import time
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
@@ -35,10 +36,13 @@ def run_through(
     watches = [Histories(passage), *(o.watch(passage, coupling) for o in observers)]
     start = static_start(system, coupling, external, passage.wheel_dofs)
     steps = Steps(journey.time_step, journey.n_steps, lambda k: float(passage.positions[k, 0]))
-    for watch in watches:
-        watch.see(start)
+    states = march(system, coupling, start, steps, integrator, external)
+    # the first step factors the matrices and loads compiled code, which is setup
+    for state in (start, *itertools.islice(states, 1)):
+        for watch in watches:
+            watch.see(state)
     stepping_began = time.perf_counter()
-    for state in march(system, coupling, start, steps, integrator, external):
+    for state in states:
         for watch in watches:
             watch.see(state)
     stepping_ended = time.perf_counter()
