@@ -19,7 +19,7 @@ from multiprocessing.connection import Connection
 from types import ModuleType
 from typing import Any
 
-from contactstudy.process import one_thread_environment
+from contactstudy.process import collect_garbage, one_thread_environment
 
 Receive = Callable[[Any], None]
 _reports: ContextVar[Receive] = ContextVar("reports", default=lambda message: None)
@@ -151,6 +151,7 @@ def _work(pipe: Connection) -> None:
         while True:
             try:
                 function, args, kwargs = pipe.recv()
+                collect_garbage()
                 answer = True, function(*args, **kwargs)
             except (EOFError, BrokenPipeError):
                 raise
