@@ -48,7 +48,8 @@ class Cluster(Executor):
             raise InputError(
                 "scheduler: needs dask.distributed; pip install 'contactstudy[cluster]'"
             ) from None
-        logging.getLogger("distributed").setLevel(logging.CRITICAL)  # its errors are told by us
+        for name in ("distributed", "distributed.client"):  # their errors are told by us
+            logging.getLogger(name).setLevel(logging.CRITICAL)
         try:
             self._client = Client(address, timeout=CONNECTING, set_as_default=False)
         except (OSError, ValueError) as error:

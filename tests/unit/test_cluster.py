@@ -242,6 +242,25 @@ def test_a_call_that_ends_every_worker_is_given_up(dask, tasks):
     assert "bad: several workers ended in the middle of it" in str(outcome.error)
 
 
+def test_a_scheduler_that_dies(tasks, tmp_path, capfd):
+    made = Dask(tmp_path)
+    try:
+        made.worker()
+
+        class Killer(Quiet):
+            def progress(self, name, done, total):
+                made.processes[0].kill()
+
+        with Cluster(made.address) as workers:
+            calls = [Task("lost", tasks.counts, (str(tmp_path),))]
+            (outcome,) = run_tasks(calls, reporter=Killer(), executor=workers).values()
+    finally:
+        made.close()
+    assert f"lost: the scheduler {made.address} has gone" in str(outcome.error)
+    assert "the same command goes on from there" in str(outcome.error)
+    assert capfd.readouterr().err == ""
+
+
 def refused(capfd, *arguments):
     assert cli.main([str(a) for a in arguments]) == 2
     return capfd.readouterr().err
