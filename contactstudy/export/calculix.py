@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from contactstudy.arrays import IntArray
+from contactstudy.arrays import Array, IntArray
 from contactstudy.export.press_mesh import PressMesh
 from contactstudy.validation import positive, raise_if
 
@@ -114,14 +114,10 @@ def calculix_input(
 
 
 def _mesh(mesh: PressMesh) -> Iterator[str]:
-    yield "*NODE, NSET=ALL"
-    for i, (x, y, z) in enumerate((1e3 * mesh.nodes).tolist(), 1):
-        yield f"{i}, {x:.12g}, {y:.12g}, {z:.12g}"
+    yield from node_lines(mesh.nodes)
     first = 1
     for name, elements in (("RAIL", mesh.rail), ("WHEEL", mesh.wheel)):
-        yield f"*ELEMENT, TYPE=C3D8I, ELSET={name}"
-        for i, row in enumerate((elements + 1).tolist(), first):
-            yield f"{i}, " + ", ".join(map(str, row))
+        yield from element_lines(name, elements, first)
         first += len(elements)
     for name, nodes in (
         *((("SYMMETRY", mesh.symmetry),) * mesh.symmetric),
@@ -129,13 +125,32 @@ def _mesh(mesh: PressMesh) -> Iterator[str]:
         ("BORE", mesh.bore),
         ("HUB", mesh.bore[:1]),
     ):
-        yield f"*NSET, NSET={name}"
-        for i in range(0, len(nodes), 10):
-            yield ", ".join(map(str, (nodes[i : i + 10] + 1).tolist())) + ","
+        yield from set_lines(name, nodes)
     for name, faces in (("TREAD", mesh.tread), ("RUNNING", mesh.running_surface)):
         yield f"*SURFACE, NAME={name}, TYPE=ELEMENT"
         for element, face in (faces + 1).tolist():
             yield f"{element}, S{face}"
+
+
+def node_lines(nodes: Array) -> Iterator[str]:
+    """Nodes (n, 3) [m], from number 1 on."""
+    yield "*NODE, NSET=ALL"
+    for i, (x, y, z) in enumerate((1e3 * nodes).tolist(), 1):
+        yield f"{i}, {x:.12g}, {y:.12g}, {z:.12g}"
+
+
+def element_lines(name: str, elements: IntArray, first: int) -> Iterator[str]:
+    """Incompatible-mode bricks of nodes (m, 8) counted from 0, numbered from `first` on."""
+    yield f"*ELEMENT, TYPE=C3D8I, ELSET={name}"
+    for i, row in enumerate((elements + 1).tolist(), first):
+        yield f"{i}, " + ", ".join(map(str, row))
+
+
+def set_lines(name: str, nodes: IntArray) -> Iterator[str]:
+    """A named set of nodes (k,), counted from 0."""
+    yield f"*NSET, NSET={name}"
+    for i in range(0, len(nodes), 10):
+        yield ", ".join(map(str, (nodes[i : i + 10] + 1).tolist())) + ","
 
 
 def _hub(bore: IntArray) -> Iterator[str]:

@@ -14,6 +14,7 @@ CASES: tuple[Case, ...] = (
     _case("hertz_ellipses", "hertz_ellipses:ellipses", slow=True),
     _case("ssnv104", "hertz_ellipses:ssnv104"),
     _case("reduction", "reduction:passage", slow=True),
+    _case("reduction_pads", "reduction_pads:passage_on_pads", slow=True),
     _case("subsurface_line", "stress_below:below_line"),
     _case("subsurface_sphere", "stress_below:below_sphere", slow=True),
     _case("subsurface_ellipse", "stress_below:below_ellipses"),
@@ -37,6 +38,7 @@ CASES: tuple[Case, ...] = (
     _case("calculix_coarse", "calculix_half:press_on_coarse_mesh", needs=_CCX),
     _case("calculix", "calculix_half:press_on_default_mesh", slow=True, needs=_CCX),
     _case("calculix_whole", "calculix_whole:press_with_yaw", slow=True, needs=_CCX),
+    _case("pad_stiffness", "pad_stiffness:pad_stiffness", slow=True, needs=_CCX),
     _case("calculix_corner", "calculix_corner:press_on_gauge_corner", slow=True, needs=_CCX),
 )
 """To add one: a function in a module of this folder, and a line here."""

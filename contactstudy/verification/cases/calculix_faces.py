@@ -9,7 +9,6 @@ from contactstudy.contact.groups import contact_area
 from contactstudy.contact.surface_contact import SurfaceContact
 from contactstudy.export.press_mesh import PressMesh
 from contactstudy.geometry.placement import Geometry
-from contactstudy.solids.wheel import WheelFlexibility
 from contactstudy.solvers.at_rest import geometry_press
 from contactstudy.track.meshed import MeshedTrack
 from contactstudy.verification.cases.calculix_results import CalculixPress
@@ -24,17 +23,10 @@ from contactstudy.verification.check import (
 PEAK = "peak mean pressure of a face"
 
 
-def smooth_press(
-    track: MeshedTrack,
-    wheel: WheelFlexibility,
-    load: float,
-    penalty: float,
-    x: float,
-    geometry: Geometry | None = None,
-) -> FacetPress:
+def smooth_press(track: MeshedTrack, contact: SurfaceContact, load: float, x: float) -> FacetPress:
     """The program's own press between smooth profiles; arguments as of `flat_press`."""
-    geometry = geometry or Geometry.of(wheel.recipe)
-    contact = SurfaceContact(wheel, geometry, penalty=penalty)
+    wheel = contact.wheel
+    geometry = contact.geometry or Geometry.of(wheel.recipe)
     points, curve = contact.points, geometry_press(track, contact, np.array([load]), x)
     solution = curve.solutions[0]
     shape = len(wheel.x) - 1, 2, len(wheel.y) - 1, 2

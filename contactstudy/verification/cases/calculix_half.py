@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from contactstudy.contact.surface_contact import SurfaceContact
 from contactstudy.export.calculix import PressLoading, calculix_input
 from contactstudy.export.press_mesh import press_mesh
 from contactstudy.halfspace.hertz import contact_modulus, hertz_contact
@@ -77,7 +78,7 @@ def _case(
     hertz = hertz_contact(LOAD, contact_modulus(*material), radius, crown)
     loading = PressLoading(LOAD, PENALTY, hertz.approach)
     run = run_calculix(calculix_input(mesh, loading, *material), PENALTY)
-    at = wheel, LOAD, PENALTY, 0.5 * length
+    at = SurfaceContact(wheel, penalty=PENALTY), LOAD, 0.5 * length
     flat, smooth = flat_press(track, *at), smooth_press(track, *at)
     theirs = read_as_facets(mesh, run.press)
     peak, against = float(smooth.face_pressure.max()), "smooth profiles, against Hertz's"

@@ -4,6 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from contactstudy.contact.surface_contact import SurfaceContact
 from contactstudy.export.calculix import PressLoading, calculix_input
 from contactstudy.export.press_mesh import press_mesh
 from contactstudy.solids.bodies import wheel_body
@@ -130,11 +131,11 @@ def whole_press(*changes: str, start: float = START, repeats: int = 0) -> WholeP
     run = run_calculix(calculix_input(mesh, loading, *material), penalty, False)
     track = UnreducedTrack(Track(rail=solid_rail(cell), length=LENGTH, support=None), cell)
     wheel = cached(wheel_body(recipe))
-    at = wheel, load, penalty, 0.5 * LENGTH
+    at = SurfaceContact(wheel, placed, penalty=penalty), load, 0.5 * LENGTH
     return WholePress(
         steps=tuple(read_as_facets(mesh, press) for press in run.presses),
-        flat=flat_press(track, *at, geometry=placed),
-        smooth=smooth_press(track, *at, geometry=placed),
+        flat=flat_press(track, *at),
+        smooth=smooth_press(track, *at),
         wheel=wheel,
         load=load,
         force=run.press.force,

@@ -11,9 +11,9 @@ import numpy as np
 
 from contactstudy.arrays import Array
 from contactstudy.contact.complementarity import press
+from contactstudy.contact.surface_contact import SurfaceContact
 from contactstudy.dynamics.banded import Factor
 from contactstudy.geometry.placement import Geometry
-from contactstudy.solids.wheel import WheelFlexibility
 from contactstudy.track.meshed import MeshedTrack
 from contactstudy.verification.cases.flat_points import flat_points
 
@@ -43,34 +43,29 @@ class FacetPress:
     lateral_force: float = 0.0
 
 
-def flat_press(
-    track: MeshedTrack,
-    wheel: WheelFlexibility,
-    load: float,
-    penalty: float,
-    x: float,
-    geometry: Geometry | None = None,
-) -> FacetPress:
+def flat_press(track: MeshedTrack, contact: SurfaceContact, load: float, x: float) -> FacetPress:
     """Press the faces of a wheel on those of a rail.
 
     Parameters
     ----------
     track : MeshedTrack
         With clamped ends and without supports: the approach is measured from the ends.
-    load, penalty, x : float
-        In N and Pa/m, and the position of the wheel on the track in m.
-    geometry : Geometry, optional
-        The recipe's profiles, centred and upright, when not given.
+    contact : SurfaceContact
+        Of it the wheel, its place and the penalty; without a place centred and upright.
+    load, x : float
+        In N, and the position of the wheel on the track in m.
     """
+    wheel = contact.wheel
+    geometry = contact.geometry or Geometry.of(wheel.recipe)
     rail = track.stretch(x, 1.05 * float(wheel.x[-1]) + 2 * track.thickness)
     factor = Factor(track.stiffness)
     unit = np.zeros((factor.n, len(rail.dofs)))
     unit[rail.dofs, np.arange(len(rail.dofs))] = 1.0
     rail_flexibility = rail.map @ factor.solve(unit)[rail.dofs] @ rail.map.T + rail.residual
-    points = flat_points(rail, wheel, x, ORDER, geometry or Geometry.of(wheel.recipe))
+    points = flat_points(rail, wheel, x, ORDER, geometry)
     M = points.on_rail @ rail_flexibility @ points.on_rail.T
     M += points.on_wheel @ wheel.flexibility @ points.on_wheel.T
-    M = 0.5 * (M + M.T) + np.diag(1.0 / (penalty * points.area))
+    M = 0.5 * (M + M.T) + np.diag(1.0 / (contact.penalty * points.area))
     solution = press(M, points.gap, points.normal[:, 1], load)
 
     faces = len(wheel.x) - 1, len(wheel.y) - 1

@@ -32,7 +32,7 @@ SOURCE = "every node with inertia"
 
 
 @dataclass(frozen=True)
-class _Passage:
+class Passage:
     """Contact forces (n,) in N of both rails over time (n,) in s."""
 
     time: Array
@@ -45,14 +45,15 @@ class _Passage:
 def passage() -> CaseResult:
     """Default supports but for the pads' length, mesh of 4 mm."""
     # a pad with a length couples all nodes above it: the full rail's band would not fit in memory
-    return _result(_passage(DiscreteSupports(pad_length=0.0)))
+    support = DiscreteSupports(pad_length=0.0)
+    return _result(both_rails(CellRecipe(size=SIZE), support, shortest=0.016))
 
 
-def _passage(support: Support) -> _Passage:
-    recipe = CellRecipe(size=SIZE)
+def both_rails(recipe: CellRecipe, support: Support, shortest: float) -> Passage:
+    """Condensed and full rail under roughness from 400 mm down to a shortest wave [m]."""
     track = Track(rail=solid_rail(recipe), length=1.2, support=support)
-    wheel = elastic_wheel(WheelRecipe(size=SIZE))
-    profile = iso_3095_profile(1, (0.016, 0.4))
+    wheel = elastic_wheel(WheelRecipe(size=recipe.size))
+    profile = iso_3095_profile(1, (shortest, 0.4))
     # whole parts of a slice, so that the mesh's own ripple is no matter
     step = recipe.thickness / 2
     journey = Journey(start=0.3, end=0.9, speed=SPEED, time_step=step / SPEED, fade_in=0.08)
@@ -63,19 +64,20 @@ def _passage(support: Support) -> _Passage:
         forces.append(np.asarray(data.contact_force.values, dtype=float))
         dofs.append(rail.n_dofs)
     static = float(wheel_column().static_loads[0])
-    return _Passage(data.time.values, forces[0], forces[1], (dofs[0], dofs[1]), static)
+    return Passage(data.time.values, forces[0], forces[1], (dofs[0], dofs[1]), static)
 
 
-def _bands(signal: Array, step: float) -> ThirdOctaves:
-    return third_octave_levels(signal, step, reference=1.0, band=(800.0, 5000.0))
+def third_octaves(signal: Array, step: float, highest: float = 5000.0) -> ThirdOctaves:
+    """From 800 Hz up, of a signal with a time step [s]."""
+    return third_octave_levels(signal, step, reference=1.0, band=(800.0, highest))
 
 
-def _result(found: _Passage) -> CaseResult:
+def _result(found: Passage) -> CaseResult:
     settled = found.time >= SETTLED
     step = float(found.time[1] - found.time[0])
     difference = found.reduced - found.full
     full, reduced, rest = (
-        _bands(signal[settled], step) for signal in (found.full, found.reduced, difference)
+        third_octaves(signal[settled], step) for signal in (found.full, found.reduced, difference)
     )
     dynamic = float(np.std(found.full[settled]))
     rms = float(np.sqrt(np.mean(difference[settled] ** 2)))
@@ -127,7 +129,7 @@ def _result(found: _Passage) -> CaseResult:
     )
 
 
-def _plots(found: _Passage, full: ThirdOctaves, rest: ThirdOctaves) -> tuple[Plot, Plot]:
+def _plots(found: Passage, full: ThirdOctaves, rest: ThirdOctaves) -> tuple[Plot, Plot]:
     t = 1e3 * found.time
     return (
         Plot(

@@ -79,29 +79,41 @@ def run_calculix(
     """
     version = calculix_version()
     with tempfile.TemporaryDirectory() as name:
-        folder, began = Path(name), os.times()
-        (folder / "press.inp").write_text(text, "ascii")
-        try:
-            done = subprocess.run(
-                [PROGRAM, "press"],
-                cwd=folder,
-                env=os.environ | {"OMP_NUM_THREADS": "1"},
-                capture_output=True,
-                text=True,
-                errors="replace",
-                timeout=timeout,
-                check=False,
-            )
-        except subprocess.TimeoutExpired as error:
-            raise NumericalError(f"CalculiX: not finished within {timeout:g} s") from error
+        began = os.times()
+        results, said = solve_in(Path(name), text, timeout)
         ended = os.times()
-        if done.returncode != 0:
-            last = " ".join(done.stdout.split()[-20:])
-            raise NumericalError(f"CalculiX: stopped with status {done.returncode}: ... {last}")
         return CalculixRun(
-            presses=read_presses(folder / "press.dat", penalty, symmetric),
+            presses=read_presses(results, penalty, symmetric),
             version=version,
-            solutions=done.stdout.count("Factoring the system"),
+            solutions=said.count("Factoring the system"),
             cpu_seconds=(ended.children_user - began.children_user)
             + (ended.children_system - began.children_system),
         )
+
+
+def solve_in(folder: Path, text: str, timeout: float = 3600.0) -> tuple[Path, str]:
+    """Solve an input file in a folder: its results (.dat) and what CalculiX said.
+
+    Raises
+    ------
+    NumericalError
+        If it does not finish within `timeout` [s].
+    """
+    (folder / "press.inp").write_text(text, "ascii")
+    try:
+        done = subprocess.run(
+            [PROGRAM, "press"],
+            cwd=folder,
+            env=os.environ | {"OMP_NUM_THREADS": "1"},
+            capture_output=True,
+            text=True,
+            errors="replace",
+            timeout=timeout,
+            check=False,
+        )
+    except subprocess.TimeoutExpired as error:
+        raise NumericalError(f"CalculiX: not finished within {timeout:g} s") from error
+    if done.returncode != 0:
+        last = " ".join(done.stdout.split()[-20:])
+        raise NumericalError(f"CalculiX: stopped with status {done.returncode}: ... {last}")
+    return folder / "press.dat", done.stdout
