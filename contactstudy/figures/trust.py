@@ -147,10 +147,11 @@ def _draw(found: TrustMap) -> Figure:
 
 def _overlay(axes: Axes, found: TrustMap, values: Array, speed: int) -> None:
     x, y = found.wavelength.at, found.amplitude.at
-    if min(values.shape) >= 2 and np.isfinite(values).all():
-        inside = [v for v in LEVELS if values.min() < v < values.max()]
+    if min(values.shape) >= 2 and np.isfinite(values).any():
+        inside = [v for v in LEVELS if np.nanmin(values) < v < np.nanmax(values)]
+        there = np.ma.masked_invalid(values)
         if inside:
-            lines = axes.contour(x, y, values, levels=inside, colors=BLACK, linewidths=0.7)
+            lines = axes.contour(x, y, there, levels=inside, colors=BLACK, linewidths=0.7)
             axes.clabel(lines, fontsize=6, fmt=lambda v: number(v, 2))
         lost = found.lost.values[speed].astype(float)
         if 0.0 < lost.mean() < 1.0:
