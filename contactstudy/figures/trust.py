@@ -43,7 +43,7 @@ class TrustMap:
     Attributes
     ----------
     lost : DataArray
-        Whether the reference loses contact (speed, amplitude, wavelength).
+        1 where the reference loses contact, nan where it failed (speed, amplitude, wavelength).
     own : DataArray or None
         The reference's own error in per cent (speed, wavelength), where a companion gives it.
     """
@@ -71,7 +71,8 @@ def trust_map(results: StudyResults) -> TrustMap | None:
         return None
     errors = 100.0 * data["relative_l2"].sel(_SELECT).transpose("run", *reversed(keys))
     errors = errors.isel(run=np.flatnonzero(errors.notnull().any(keys).values))
-    lost = data["contact_lost"].sel(run=results.reference).transpose(*reversed(keys)) > 0.0
+    share = data["contact_lost"].sel(run=results.reference).transpose(*reversed(keys))
+    lost = (share > 0.0).where(share.notnull())
     axes = [axis_of(data, key) for key in keys]
     return TrustMap(errors, lost, _own_error(results, data), *axes)
 
@@ -153,7 +154,7 @@ def _overlay(axes: Axes, found: TrustMap, values: Array, speed: int) -> None:
         if inside:
             lines = axes.contour(x, y, there, levels=inside, colors=BLACK, linewidths=0.7)
             axes.clabel(lines, fontsize=6, fmt=lambda v: number(v, 2))
-        lost = found.lost.values[speed].astype(float)
+        lost = np.ma.masked_invalid(found.lost.values[speed])
         if 0.0 < lost.mean() < 1.0:
             axes.contour(x, y, lost, levels=[0.5], colors=VERMILION, linewidths=1.0)
     if found.own is not None:
