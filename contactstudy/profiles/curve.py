@@ -34,6 +34,8 @@ class ProfileCurve:
         and its normal points down (wheel).
     residual : float
         RMS distance of measured points from the curve [m]; 0 for a drawing.
+    notes : tuple of str
+        What a user should know of the points that it was fitted to.
     """
 
     name: str
@@ -41,6 +43,7 @@ class ProfileCurve:
     begin: float
     upper: bool
     residual: float = 0.0
+    notes: tuple[str, ...] = ()
 
     @cached_property
     def _joints(self) -> Array:

@@ -6,6 +6,7 @@ from typing import Literal
 
 from contactstudy.given_files import is_file
 from contactstudy.profiles.curve import ProfileCurve, joined
+from contactstudy.profiles.profile_file import SUFFIXES
 from contactstudy.profiles.rail import running_surface
 from contactstudy.profiles.wheel import wheel_profile
 from contactstudy.profiles.worn import worn_curve
@@ -56,7 +57,7 @@ def _drawn_wheel(name: str) -> ProfileCurve:
 
 
 def _is_file(name: str) -> bool:
-    return Path(name).suffix.lower() == ".csv"
+    return Path(name).suffix.lower() in (".csv", *SUFFIXES)
 
 
 def _worn(name: str, body: Literal["rail", "wheel"]) -> ProfileCurve:

@@ -1,16 +1,26 @@
 """Worn profiles of rail and wheel from CSV files."""
 
 import re
+from dataclasses import replace
 from pathlib import Path
 from typing import Literal
 
 import numpy as np
 
 from contactstudy.arrays import Array
-from contactstudy.csv_rows import finite_number, listed, read_rows
+from contactstudy.csv_rows import finite_number, header_cells, listed, read_rows
 from contactstudy.exceptions import InputError
 from contactstudy.profiles.cloud import fit_cloud
 from contactstudy.profiles.curve import ProfileCurve
+from contactstudy.profiles.orientation import TAPE, shape_of_rail, shape_of_wheel
+from contactstudy.profiles.outliers import (
+    BEARABLE,
+    LARGEST_RESIDUAL,
+    MOST,
+    curvature_error,
+    outliers,
+)
+from contactstudy.profiles.profile_file import SUFFIXES, FilePoints, read_points
 
 Body = Literal["rail", "wheel"]
 
@@ -58,20 +68,87 @@ def worn_curve(
         beyond the ends.
     """
     file = Path(path)
-    rows = read_rows(file)
-    header = [cell.strip() for cell in rows[0][1]]
-    index, stated, problems = _columns(file, rows[0][0], header, unit)
     if not smoothing > 0:
-        problems.append(f"{file}: smoothing = {smoothing:g} m; allowed: above 0")
+        raise InputError(f"{file}: smoothing = {smoothing:g} m; allowed: above 0")
+    problems: list[str] = []
+    if file.suffix.lower() in SUFFIXES:
+        read, stated = _turned(file, read_points(file, body), body), "mm"
+    else:
+        read, stated = _from_csv(file, unit, problems)
+    problems += _extent(file, read.points, read.lines, stated)
     if problems:
         raise InputError(problems)
+    shape = shape_of_wheel if body == "wheel" else shape_of_rail
+    if faults := shape(read.points).faults():
+        raise InputError(
+            f"{file}: does not look like a {body} with y to the field side and z up: {fault}"
+            for fault in faults
+        )
+    points, notes = _without_outliers(file, read)
+    curve = fitted_curve(points, body, smoothing, file.name)
+    if curve.residual > LARGEST_RESIDUAL:
+        raise InputError(
+            f"{file}: the residual of the fitted curve is {1e6 * curve.residual:.4g} um rms; "
+            f"allowed: up to {1e6 * LARGEST_RESIDUAL:g} um"
+        )
+    return replace(curve, notes=(*notes, *curve.notes))
+
+
+def _from_csv(file: Path, unit: str | None, problems: list[str]) -> tuple[FilePoints, str]:
+    """Points [m] of a CSV file, and the unit that it states; adds what is wrong with them."""
+    rows = read_rows(file)
+    header = header_cells(file, rows)
+    index, stated, wrong = _columns(file, rows[0][0], header, unit)
+    if wrong:
+        raise InputError(wrong)
     points, lines, faults = _points(rows[1:], index, header)
     points *= UNITS[stated]
-    problems = listed(file, faults) + _order(file, points, lines)
-    problems += _extent(file, points, lines, stated)
-    if problems:
-        raise InputError(problems)
-    return fitted_curve(points, body, smoothing, file.name)
+    problems += listed(file, faults) + _order(file, points, lines)
+    return FilePoints(points, lines, []), stated
+
+
+def _turned(file: Path, read: FilePoints, body: Body) -> FilePoints:
+    """Points of another program in our axes: its shape says z, and y of a wheel.
+
+    Rails of Simpack have y to the field side, those of MiniProf to the gauge side. A wheel whose
+    points begin at the flange back has its tape circle 70 mm from there.
+    """
+    p = read.points.copy()
+    if len(p) < POINTS:
+        return read
+    wheel = body == "wheel"
+    found = shape_of_wheel(p) if wheel else shape_of_rail(p)
+    y, z = found.y, found.z
+    if not z:
+        raise InputError(f"{file}: {found.told} to be seen, so that it may be upside down")
+    if not wheel:
+        y = -1 if file.suffix.lower() == ".ban" else 1
+    p *= (y, z)
+    notes = [*read.notes]
+    turned = [name for name, factor in (("y", y), ("z", z)) if factor < 0]
+    if turned:
+        notes.append(f"{file.name}: {' and '.join(turned)} turned; {found.told} in the file's axes")
+    if wheel and not p[:, 0].min() < -0.02:
+        back = TAPE + min(float(p[:, 0].min()), 0.0)
+        p[:, 0] -= back
+        notes.append(f"{file.name}: tape circle {1e3 * TAPE:g} mm from the flange back at y = 0")
+    return FilePoints(p, read.lines, notes)
+
+
+def _without_outliers(file: Path, read: FilePoints) -> tuple[Array, list[str]]:
+    """Points without those that are off by themselves, and what is to be said of them."""
+    which, off = outliers(read.points)
+    if len(which) > MOST * len(read.points):
+        raise InputError(
+            f"{file}: more than {100 * MOST:g} % of its points lie off their neighbours, the first "
+            f"in line {read.lines[which[0]]} by {1e6 * off[0]:.3g} um: too much scatter for "
+            "contact stresses"
+        )
+    notes = [
+        f"{file.name}, line {read.lines[k]}: {1e6 * d:.3g} um off its neighbours, left out"
+        for k, d in zip(which, off, strict=True)
+    ]
+    return np.delete(read.points, which, axis=0), [*read.notes, *notes]
 
 
 def fitted_curve(
@@ -84,7 +161,14 @@ def fitted_curve(
     for _ in range(20):
         s = float(np.clip(s - fit.spline(s)[0] / fit.spline(s, 1)[0], 0.0, fit.length))
     down = np.array([0.0, float(fit.spline(s)[1])])
-    return fit.curve(down, body == "rail", name)
+    error = curvature_error(fit.scatter, len(points), fit.length, len(fit.knots))
+    notes: tuple[str, ...] = ()
+    if error > BEARABLE:
+        notes = (
+            f"{name}: its points scatter by {1e6 * fit.scatter:.3g} um, which leaves the curvature "
+            f"uncertain by {error:.2g} 1/m (a 60E1 crown has 3.3 1/m)",
+        )
+    return replace(fit.curve(down, body == "rail", name), notes=notes)
 
 
 def _columns(

@@ -1,0 +1,88 @@
+"""Profiles in other axes and of other programs, and points that are off (seeded)."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from contactstudy.exceptions import InputError
+from contactstudy.profiles.named import rail_curve, wheel_curve
+from contactstudy.profiles.worn import worn_curve
+
+SHARED = Path(__file__).parents[3].parent / "shared" / "data" / "profiles"
+
+
+def points(body):
+    curve, ends = (wheel_curve("S1002"), (-0.066, 0.055)) if body == "wheel" else (
+        rail_curve("60E1"), (-0.04, 0.04))  # fmt: skip
+    return curve.point(np.arange(*ends, 0.25e-3))
+
+
+def write(path, p, head="y [mm],z [mm]", end="", separator=","):
+    rows = [f"{1e3 * y:.5f}{separator}{1e3 * z:.5f}" for y, z in p]
+    path.write_text("\n".join([head, *rows, end]), "utf-8")
+    return path
+
+
+@pytest.mark.parametrize(
+    ("body", "y", "z", "named"),
+    [
+        ("wheel", -1, 1, ("y points",)),
+        ("wheel", 1, -1, ("z points down",)),
+        ("wheel", -1, -1, ("y points", "z points down")),
+        ("rail", 1, -1, ("z points down",)),
+    ],
+)
+def test_foreign_axes_are_refused_by_name(tmp_path, body, y, z, named):
+    worn_curve(write(tmp_path / "sound.csv", points(body)), body)
+    turned = points(body)[::y] * (y, z)
+    with pytest.raises(InputError) as found:
+        worn_curve(write(tmp_path / "turned.csv", turned), body)
+    assert len(found.value.problems) == len(named)
+    for part in named:
+        assert part in str(found.value)
+
+
+@pytest.mark.parametrize("body", ["wheel", "rail"])
+@pytest.mark.parametrize("off", [0.05e-3, -0.2e-3])
+def test_a_spike_anywhere_is_named_and_left_out(tmp_path, body, off):
+    clean, p = worn_curve(write(tmp_path / "c.csv", points(body)), body), points(body)
+    s = np.linspace(-0.03, 0.03, 200)
+    for k in np.random.default_rng(7).integers(60, len(p) - 60, 5):
+        spiked = p + np.eye(len(p))[k][:, None] * (0.0, off)
+        curve = worn_curve(write(tmp_path / "s.csv", spiked), body)
+        assert f"line {k + 2}:" in curve.notes[0] and "left out" in curve.notes[0]
+        assert curve.point(s) == pytest.approx(clean.point(s), abs=3e-6)
+
+
+MINIPROF = 'Filename=a\nXYPoints={}\nColumnDef=X,Y\n"RefPoint1="\n'
+SIMPACK = "  type = {}\n units.len.f = +1.0e+03 ! factor\n point.begin\n ! y z\n"
+OLD = "MINIPROF 101 148 1994 3 24\nCar Number..:\n32.58 37.11 14.71  (Sd/Sh/qR)\n"
+
+
+def test_each_form_is_the_same_curve(tmp_path):
+    s = np.linspace(-0.03, 0.03, 100)
+    for body, forms in {
+        "rail": ((".ban", MINIPROF, "", -1, -1), (".prr", SIMPACK.format(0), "point.end", 1, -1)),
+        "wheel": ((".whl", OLD, "", 1, -1), (".prw", SIMPACK.format(1), "point.end", -1, -1)),
+    }.items():
+        p = points(body)
+        expected = worn_curve(write(tmp_path / "c.csv", p), body)
+        for suffix, head, end, y, z in forms:
+            file = write(tmp_path / f"a{suffix}", p * (y, z), head.format(len(p)), end, " ")
+            curve = worn_curve(file, body)
+            assert curve.point(s) == pytest.approx(expected.point(s), abs=3e-6)
+            assert any("turned" in note for note in curve.notes)
+    file = write(tmp_path / "cut.ban", points("rail"), MINIPROF.format(9999), "", " ")
+    with pytest.raises(InputError, match="its header counts 9999"):
+        worn_curve(file, "rail")
+    with pytest.raises(InputError, match="of a rail by its name"):
+        worn_curve(file, "wheel")
+
+
+def test_the_manchester_rail_is_one_in_both_forms():
+    if not SHARED.is_dir():
+        pytest.skip("sample profiles are not on this machine")
+    s = np.linspace(-0.03, 0.02, 100)
+    one, two = (rail_curve(str(SHARED / f"MBench_UIC60_v3{x}")) for x in (".ban", ".prr"))
+    assert one.point(s) == pytest.approx(two.point(s), abs=1e-7)
