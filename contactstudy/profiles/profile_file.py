@@ -2,9 +2,9 @@
 
 MiniProf (``.ban`` rail, ``.whl`` wheel; mm): a header, an empty line, one point a line. Simpack
 (``.prr`` rail, ``.prw`` wheel): points between ``point.begin`` and ``point.end``, lengths
-divided by ``units.len.f``. Plain text (``.txt``, ``.dat``, ``.asc``; mm): two columns. Of a line the first two
-numbers count; what follows them is a weight, an angle or a remark. Lines behind a quotation mark,
-``!``, ``#``, ``%`` or ``;`` are disabled.
+divided by ``units.len.f``. Plain text (``.txt``, ``.dat``, ``.asc``; mm): two columns. Of a line
+the first two numbers count; what follows them is a weight, an angle or a remark. Lines behind a
+quotation mark, ``!``, ``#``, ``%`` or ``;`` are disabled.
 """
 
 import re

@@ -79,9 +79,9 @@ def test_impossible_dimensions_at_once(tmp_path: Path) -> None:
 def test_unknown_names_and_files(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="straight_860"):
         wheel_dimensions("round_900")
-    with pytest.raises(InputError, match="cannot be read"):
+    with pytest.raises(InputError, match="there is no such file"):
         wheel_dimensions(str(tmp_path / "none.toml"))
     broken = tmp_path / "broken.toml"
     broken.write_text("[rim")
-    with pytest.raises(InputError, match="not TOML"):
+    with pytest.raises(InputError, match="is not a TOML file"):
         wheel_dimensions(str(broken))

@@ -55,6 +55,8 @@ def read_inputs(study: Study) -> Inputs:
             files[Path(name).name] = digest
             config["wheelset"][key] = Path(name).name
     notes = described.warnings + _scans(study, config, files)
+    if "wheelset" in config and (rail_name := study.track.rail.profile_name) is not None:
+        notes += tuple(n for curve in study.wheelset.curves(rail_name) for n in curve.notes)
     meshed = bool(study.runs) and study.track.rail.profile_name is not None
     return Inputs(
         config,

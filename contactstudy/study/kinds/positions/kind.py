@@ -42,7 +42,8 @@ class PositionsKind(Kind):
 
     def read_inputs(self, study: PositionsStudy) -> Inputs:
         """The table, and what the files of its profiles hold."""
-        return Inputs(study.config(), study.files())
+        wheelset = study.wheelset
+        return Inputs(study.config(), study.files(), wheelset.rail.notes + wheelset.wheel.notes)
 
 
 POSITIONS = PositionsKind()
