@@ -69,25 +69,24 @@ class Advice:
         wanted = f"within {100 * self.bound:g} % of {of}"
         if self.answer is None:
             best = min(self.tried, key=lambda t: t.error)
-            words = FAMILIES[best.scheme.family][0]
             told = [
-                f"No scheme keeps {wanted} with a margin: the best, {words}, is "
+                f"No scheme keeps {wanted} with a margin: the best, {best.scheme.words}, is "
                 f"{100 * best.error:.2g} % off. Surface contact itself is needed."
             ]
         else:
-            words = FAMILIES[self.answer.scheme.family][0]
             told = [
-                f"The cheapest scheme that keeps {wanted}: {words}. It is "
+                f"The cheapest scheme that keeps {wanted}: {self.answer.scheme.words}. It is "
                 f"{100 * self.answer.error:.2g} % off surface contact with a modal wheel on this "
                 f"sample; at most {100 * MARGIN * self.bound:.3g} % was asked for, since the error "
                 "varies from sample to sample."
             ]
         if self.k_r is not None:
             told.append(f"The tangent of the static press is k_r = {self.k_r / 1e9:.4g} GN/m.")
-        for family, (words, _) in FAMILIES.items():
-            best = self.best(family)
+        for best in map(self.best, FAMILIES):
             if best.error > MARGIN * self.bound:
-                told.append(f"Not enough: {words}, at best {100 * best.error:.2g} % off.")
+                told.append(
+                    f"Not enough: {best.scheme.words}, at best {100 * best.error:.2g} % off."
+                )
         return told
 
 
@@ -130,9 +129,8 @@ def advise(
     raise_if(problems)
     assert isinstance(study, Passage)
     found = schemes(study.journey.time_step)
-    tables = {name: scheme.table for name, scheme in found.items()}
     runs = {REFERENCE: _run(REFERENCE, {"solver": "surface", "wheel": "modal"})}
-    runs |= {name: _run(name, table) for name, table in tables.items()}
+    runs |= {name: _run(name, scheme.table) for name, scheme in found.items()}
     solid = replace(study.solid, pressure_at=(), animation_frames=0, animation_span=())
     asked = replace(study, solid=solid, runs=runs, reference=REFERENCE, companions=())
     results = compute_study(asked, folder, workers, reporter)

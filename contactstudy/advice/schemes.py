@@ -44,6 +44,11 @@ class Scheme:
     family: str
     table: Mapping[str, Any]
 
+    @property
+    def words(self) -> str:
+        """What its family is called."""
+        return FAMILIES[self.family][0]
+
     def toml(self, name: str = "point") -> str:
         """The table as it stands in a study file."""
         lines = [f"{key} = {_toml(value)}" for key, value in self.table.items()]

@@ -5,7 +5,6 @@ from rich.console import Console
 from rich.table import Table
 
 from contactstudy.advice.advise import MEASURES, Advice, Tried
-from contactstudy.advice.schemes import FAMILIES
 
 
 def print_advice(advice: Advice, console: Console) -> None:
@@ -20,7 +19,7 @@ def print_advice(advice: Advice, console: Console) -> None:
         run = advice.results.metrics["runs"][tried.name]
         mark = " <-" if tried == advice.answer else ""
         table.add_row(
-            FAMILIES[tried.scheme.family][0],
+            tried.scheme.words,
             str(tried.scheme.table.get("elements_per_bay", "")),
             f"{1e6 * run['dt']:.4g} us",
             f"{tried.work:.2g}",

@@ -46,7 +46,7 @@ class LinearSpring(Parameters):
     stiffness: Annotated[float, Unit("N/m"), Above(0), "contact stiffness k_r"]
     kind: ClassVar[int] = law_forces.LINEAR
 
-    @property
+    @cached_property
     def numbers(self) -> Array:
         """See `law_forces.wheel_forces`."""
         return np.array([self.stiffness])
@@ -77,7 +77,7 @@ class HertzSpring(Parameters):
     softness: ClassVar[float] = math.inf
     kind: ClassVar[int] = law_forces.HERTZ
 
-    @property
+    @cached_property
     def numbers(self) -> Array:
         """See `law_forces.wheel_forces`."""
         return np.array([self.stiffness])

@@ -7,6 +7,7 @@ wheel in every step, from which `law_forces` has the force.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import ClassVar
 
 import numpy as np
@@ -47,7 +48,7 @@ class WinklerBedding:
         """Distance of the places at which the profile is taken [m]."""
         return self.half_length / _PER_HALF
 
-    @property
+    @cached_property
     def numbers(self) -> Array:
         """See `law_forces.wheel_forces`; k for the profile between its places, not the parabola."""
         smooth = -self.approach * (np.arange(-_PER_HALF, _PER_HALF + 1) / _PER_HALF) ** 2
@@ -94,7 +95,7 @@ class FollowingPatch:
         """That of the law."""
         return self.law.kind
 
-    @property
+    @cached_property
     def numbers(self) -> Array:
         """Those of the law, and the step of the approach."""
         return np.r_[self.law.numbers, self.step]

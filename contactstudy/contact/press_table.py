@@ -16,7 +16,7 @@ from contactstudy.contact.augmented import Enforcement
 from contactstudy.contact.complementarity import PressedForces
 from contactstudy.contact.press import PRESS_LOADS, press_curve, press_stiffness
 from contactstudy.exceptions import InputError, NumericalError
-from contactstudy.geometry.points import ContactPoints
+from contactstudy.geometry.points import EDGE_KEYS, ContactPoints
 
 LARGEST = 3.0
 """Largest load of a table, in static loads."""
@@ -89,10 +89,9 @@ def press_table(
     edges = [points.edge_reached(solution.active) for solution in curve.solutions]
     n = next((k for k, edge in enumerate(edges) if edge), len(root))
     if n < len(root) and root[n] < _LEAST * unit:
-        key = "contact_half_width" if edges[n] == "across" else "contact_half_length"
         raise NumericalError(
             f"static press: the patch reaches the edge of the finely meshed zone {edges[n]} the "
-            f"rail at {1e-3 * root[n] ** 3:.4g} kN ({key} is too small)"
+            f"rail at {1e-3 * root[n] ** 3:.4g} kN ({EDGE_KEYS[edges[n]]} is too small)"
         )
     root, solutions = root[:n], curve.solutions[:n]
     rows = np.linspace(_SMALLEST[1] * unit, root[-1], _ROWS)

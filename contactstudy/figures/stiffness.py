@@ -86,6 +86,7 @@ def drawings(results: StudyResults) -> list[Drawing]:
 def _draw(found: list[Curve]) -> Figure:
     panels = list(dict.fromkeys(c.panel for c in found))
     styles = run_styles(list(dict.fromkeys(c.name for c in found)), None)
+    logarithmic = parts.wide(np.concatenate([c.error for c in found]))
     figure = new_figure(3.2)
     grid = figure.subplots(1, len(panels), sharex=True, sharey=True, squeeze=False)[0]
     for axes, panel in zip(grid, panels, strict=True):
@@ -95,7 +96,6 @@ def _draw(found: list[Curve]) -> Figure:
             axes.plot(*c.best, marker=style.marker, color=style.color, ms=5, ls="none")
         axes.axvline(1.0, color=BLACK, lw=0.7, ls="--")
         axes.axvline(SECANT, color=GREY, lw=0.7, ls=":")
-        logarithmic = parts.wide(np.concatenate([c.error for c in found]))
         axes.set(xscale="log", yscale="log" if logarithmic else "linear", title=label(panel))
         axes.set_xlabel("contact stiffness (tangents)")
     grid[0].set_ylabel("Error of the force (%)")

@@ -1,7 +1,7 @@
 """Where a point scheme can be trusted: its error on sinusoids over wavelength, amplitude, speed.
 
 Drawn in are the levels that railways have (ISO 3095's limit, the paper's Table 1), where contact
-is first lost, the length of the patch, and where the reference's own error is not small.
+is first lost, and where the reference's own error is not small.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from matplotlib.colors import BoundaryNorm
 from matplotlib.figure import Figure
 
 from contactstudy.arrays import Array
-from contactstudy.figures.axes.maps import edges
+from contactstudy.figures.axes.maps import edges, hatch
 from contactstudy.irregularity.chosen import Irregularity
 from contactstudy.irregularity.limit import ISO_3095_LIMIT
 from contactstudy.plot.drawing import Drawing
@@ -159,15 +159,10 @@ def _overlay(axes: Axes, found: TrustMap, values: Array, speed: int) -> None:
             axes.contour(x, y, lost, levels=[0.5], colors=VERMILION, linewidths=1.0)
     if found.own is not None:
         doubtful = found.own.values[speed][None, :] > _SHARE * values
-        if doubtful.any():
-            axes.pcolor(
-                edges(found.wavelength), edges(found.amplitude),
-                np.ma.masked_where(~doubtful, np.ones(values.shape)),
-                facecolor="none", hatch="////", edgecolor=GREY, lw=0,
-            )  # fmt: skip
+        hatch(axes, found.wavelength, found.amplitude, doubtful)
     low, high = edges(found.amplitude)[[0, -1]]
+    unit = _units(found)
     for (wave, amplitude), color, dashes in ((_limit(), BLUE, "-"), (_paper(), GREY, "--")):
-        unit = _units(found)
         at = (wave * unit[0] >= x.min()) & (wave * unit[0] <= x.max())
         axes.plot(wave[at] * unit[0], amplitude[at] * unit[1], color=color, ls=dashes, lw=0.9)
     axes.set_ylim(low, high)

@@ -16,6 +16,9 @@ from contactstudy.geometry.placement import Geometry
 from contactstudy.geometry.pose import Pose
 from contactstudy.geometry.quadrature import Quadrature, grid_facets, point_line
 
+EDGE_KEYS = {"along": "contact_half_length", "across": "contact_half_width"}
+"""Way in which a patch reaches the edge of its points -> key that is too small."""
+
 
 @dataclass(frozen=True)
 class ContactPoints:

@@ -9,6 +9,7 @@ from contactstudy.arrays import Array
 from contactstudy.exceptions import InputError
 from contactstudy.irregularity.defective import DefectiveProfile
 from contactstudy.irregularity.profile import Profile, check_derivative
+from contactstudy.irregularity.shapes import smoothstep
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,7 +44,7 @@ class FadedProfile:
         # s(t) = 10 t^3 - 15 t^4 + 6 t^5 with t = (X - start)/length: s' and s'' vanish at both
         # ends, so that the wheel feels no jump in velocity or acceleration
         t = np.minimum((x - self.start) / self.length, 1.0)
-        s0 = t**3 * (10.0 - 15.0 * t + 6.0 * t * t)
+        s0 = smoothstep(t)
         r0 = self.profile(x)
         if derivative == 0:
             return s0 * r0

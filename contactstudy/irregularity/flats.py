@@ -5,12 +5,14 @@ Where the wheel has rolled to X, the material that meets the rail at X + x is at
 order a missing depth is a dip of the rail that comes back with every revolution.
 """
 
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import Annotated
 
 import numpy as np
 
 from contactstudy.arrays import Array
+from contactstudy.irregularity.shapes import haversine
 from contactstudy.validation import (
     AtMost,
     Key,
@@ -54,16 +56,16 @@ class WheelDefect(Parameters):
     ] = 12.0  # fmt: skip
 
 
-class LocalDefect(WheelDefect):
+class LocalDefect(WheelDefect, ABC):
     """A defect that is not all round the wheel."""
 
+    @abstractmethod
     def half_length(self, radius: float) -> float:
         """How far it reaches to either side of its middle, round the wheel [m]."""
-        raise NotImplementedError
 
+    @abstractmethod
     def depth(self, s: Array, radius: float, lines: TreadLines) -> Array:
         """Missing depth (n, lines) [m] at distances s (n,) [m] of a wheel of that radius [m]."""
-        raise NotImplementedError
 
 
 @dataclass(frozen=True)
@@ -112,6 +114,4 @@ class RoundedFlat(LocalDefect):
     def depth(self, s: Array, radius: float, lines: TreadLines) -> Array:
         """See `LocalDefect`."""
         d = self.length**2 / (8.0 * radius) if self.middle is None else self.middle
-        t = np.minimum(np.abs(s) / self.length, 0.5)
-        along = 0.5 * d * (1.0 + np.cos(2.0 * np.pi * t))
-        return np.repeat(along[:, None], len(lines.y), axis=1)
+        return np.repeat(d * haversine(s, self.length)[:, None], len(lines.y), axis=1)

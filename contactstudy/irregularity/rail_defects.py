@@ -3,35 +3,37 @@
 Each is a level r(X), positive upwards, uniform across the rail, and is not faded in.
 """
 
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import Annotated
 
 import numpy as np
 
 from contactstudy.arrays import Array
+from contactstudy.irregularity.shapes import haversine, smoothstep
 from contactstudy.validation import Key, Naming, Parameters, Variants, complaint
 from contactstudy.validation import quantities as q
 
 
 @dataclass(frozen=True)
-class RailDefect(Parameters):
+class RailDefect(Parameters, ABC):
     """What all defects of the rail have."""
 
     at: Annotated[q.LengthOrZero, Key("rail_defect_at"), "X of its middle, or of the step"] = 12.0
 
     @property
+    @abstractmethod
     def half_length(self) -> float:
         """How far it reaches to either side of `at` [m]."""
-        raise NotImplementedError
 
     @property
     def last(self) -> float:
         """Where it ends [m]."""
         return self.at + self.half_length
 
+    @abstractmethod
     def level(self, x: Array) -> Array:
         """The running surface (...) at distances x (...) from `at`, both in m."""
-        raise NotImplementedError
 
     def __call__(self, x: Array) -> Array:
         """The running surface (...) at positions X (...), both in m."""
@@ -78,8 +80,7 @@ class Weld(_LongDefect):
 
     def level(self, x: Array) -> Array:
         """See `RailDefect`."""
-        t = np.minimum(np.abs(x) / self.length, 0.5)
-        return 0.5 * self.height * (1.0 + np.cos(2.0 * np.pi * t))
+        return self.height * haversine(x, self.length)
 
 
 @dataclass(frozen=True)
@@ -99,9 +100,8 @@ class Corrugation(_LongDefect):
         return [complaint(key("length"), self.length, allowed)]
 
     def level(self, x: Array) -> Array:
-        """See `RailDefect`; it grows by the smoothstep of `irregularity.fade`."""
-        t = np.clip((self.half_length - np.abs(x)) / self.wavelength, 0.0, 1.0)
-        grown = t**3 * (10.0 - 15.0 * t + 6.0 * t * t)
+        """See `RailDefect`; it grows by `shapes.smoothstep`."""
+        grown = smoothstep((self.half_length - np.abs(x)) / self.wavelength)
         return np.asarray(self.amplitude * grown * np.cos(2.0 * np.pi * x / self.wavelength))
 
 

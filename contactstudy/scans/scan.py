@@ -10,6 +10,7 @@ import numpy as np
 
 from contactstudy.exceptions import InputError
 from contactstudy.profiles.curve import ProfileCurve
+from contactstudy.profiles.outliers import LARGEST_RESIDUAL
 from contactstudy.profiles.scan_fit import STEEPEST, ScanFit
 from contactstudy.profiles.scanned_rail import RAIL_DEPTH, fit_rail_head
 from contactstudy.profiles.scanned_wheel import WHEEL_DEPTH, fit_wheel_tread
@@ -67,7 +68,7 @@ def read_scan(
     body: Body,
     origin: float = 0.0,
     smoothing: float = 1e-3,
-    residual_limit: float = 1e-4,
+    residual_limit: float = LARGEST_RESIDUAL,
 ) -> Scan:
     """Read a scan and fit the smooth surface.
 

@@ -75,13 +75,9 @@ class Passage(Generic[T]):
 
     def felt(self, contact_filter: ContactFilter | None = None) -> Array:
         """(n_times, nw) what each wheel feels of the faded irregularity [m]; r without a filter."""
+        felt = contact_filter or (lambda level, x: level(x))
         ways = np.ascontiguousarray(self.positions.T)
-        levels = [self.faded(k) for k in range(len(ways))]
-        if contact_filter is None:
-            return np.column_stack([level(x) for level, x in zip(levels, ways, strict=True)])
-        return np.column_stack(
-            [contact_filter(level, x) for level, x in zip(levels, ways, strict=True)]
-        )
+        return np.column_stack([felt(self.faded(k), x) for k, x in enumerate(ways)])
 
     def seen(self, law: PatchLaw) -> tuple[Array, Array]:
         """What each wheel feels at first touch (n_times, nw), the shape (n_times, nw, m) [m]."""

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from contactstudy.arrays import Array
 from contactstudy.figures.axes import parts
 from contactstudy.plot.drawing import Drawing
-from contactstudy.plot.style import LineStyle, figure_legend, new_figure, run_styles
+from contactstudy.plot.style import LineStyle, figure_legend, run_styles
 from contactstudy.plot.text import capital, label
 from contactstudy.study.axes.axis import AxisOf, axis_of
 from contactstudy.study.axes.shown import RUN, Shown
@@ -54,10 +54,7 @@ def _draw(quantity: Shown, long: str, short: list[str]) -> Figure:
     panels = list(dict.fromkeys(panel for panel, _ in curves))
     lines = list(dict.fromkeys(line for _, line in curves))
     styles = run_styles(lines, None)
-    columns = min(2, len(panels))
-    rows = -(-len(panels) // columns)
-    figure = new_figure(0.6 + 2.5 * rows, 5.4 if columns == 1 else 6.3)
-    grid = figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
+    figure, grid = parts.panels(len(panels), 2, (2.5, 0.6))
     logarithmic = parts.wide(np.concatenate([v for v, _ in curves.values()]))
     holes = along.at[parts.failed(quantity, [long])]
     for axes, panel in zip(grid.flat, panels, strict=False):
@@ -67,8 +64,6 @@ def _draw(quantity: Shown, long: str, short: list[str]) -> Figure:
         parts.label_axis(axes, along, "x")
         axes.set_title(panel)
         axes.set_yscale("log" if logarithmic else "linear")
-    for axes in grid.flat[len(panels) :]:
-        axes.set_visible(False)
     figure.supylabel(quantity.title, fontsize=9)
     figure_legend(figure, grid.flat[0])
     return figure

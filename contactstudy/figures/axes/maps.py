@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from contactstudy.arrays import Array
 from contactstudy.figures.axes import parts
 from contactstudy.plot.drawing import Drawing
-from contactstudy.plot.style import BLACK, GREY, new_figure
+from contactstudy.plot.style import BLACK, GREY
 from contactstudy.plot.text import capital, label, number
 from contactstudy.study.axes.axis import AxisOf, axis_of
 from contactstudy.study.axes.shown import Shown
@@ -74,10 +74,7 @@ def _ends(values: Array, along: AxisOf, up: AxisOf) -> str:
 
 
 def _draw(quantity: Shown, along: AxisOf, up: AxisOf, panels: list[Panel]) -> Figure:
-    columns = min(3 if len(panels) > 4 else 2, len(panels))
-    rows = -(-len(panels) // columns)
-    figure = new_figure(0.5 + 2.4 * rows, 5.4 if columns == 1 else 6.3)
-    grid = figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
+    figure, grid = parts.panels(len(panels), 3 if len(panels) > 4 else 2, (2.4, 0.5))
     every = np.concatenate([p.values.ravel() for p in panels])
     there = every[np.isfinite(every)]
     log = parts.wide(every)
@@ -88,14 +85,12 @@ def _draw(quantity: Shown, along: AxisOf, up: AxisOf, panels: list[Panel]) -> Fi
             edges(along), edges(up), panel.values, norm=norm, cmap="viridis_r", rasterized=True
         )
         _contours(axes, along, up, panel.values, log)
-        _hatch(axes, along, up, panel.failed)
+        hatch(axes, along, up, panel.failed)
         parts.label_axis(axes, along, "x")
         parts.label_axis(axes, up, "y")
         axes.label_outer()
         axes.grid(False)
         axes.set_title(panel.title)
-    for axes in grid.flat[len(panels) :]:
-        axes.set_visible(False)
     if mesh is not None:
         figure.colorbar(mesh, ax=grid.ravel().tolist(), label=quantity.title)
     return figure
@@ -129,9 +124,10 @@ def _contours(axes: Axes, along: AxisOf, up: AxisOf, values: Array, log: bool) -
     axes.clabel(lines, fontsize=7, fmt=lambda v: number(v, 2))
 
 
-def _hatch(axes: Axes, along: AxisOf, up: AxisOf, failed: Any) -> None:
-    if failed.any():
-        holes = np.ma.masked_where(~failed, np.ones(failed.shape))
+def hatch(axes: Axes, along: AxisOf, up: AxisOf, where: Any) -> None:
+    """Hatch the cells (ny, nx) of a map that are marked."""
+    if where.any():
+        holes = np.ma.masked_where(~where, np.ones(where.shape))
         axes.pcolor(
             edges(along), edges(up), holes, facecolor="none", hatch="////", edgecolor=GREY, lw=0
         )

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from contactstudy.arrays import Array
 from contactstudy.compare.statistics import spread
-from contactstudy.plot.style import BLACK, LineStyle, run_styles
+from contactstudy.plot.style import BLACK, TEXT_WIDTH, LineStyle, new_figure, run_styles
 from contactstudy.plot.text import number
 from contactstudy.study.axes.axis import AxisOf
 from contactstudy.study.axes.dataset import FAILURE
@@ -20,6 +21,20 @@ if TYPE_CHECKING:
 
 WIDE = 20.0
 """Ratio of the largest to the smallest value from which a scale is logarithmic."""
+
+
+def panels(number: int, beside: int, height: tuple[float, float]) -> tuple[Figure, Any]:
+    """Figure with a grid of panels, so many beside each other at most; those left over are hidden.
+
+    Height of a row, and what comes to all rows, in inch.
+    """
+    columns = min(beside, number)
+    rows = -(-number // columns)
+    figure = new_figure(height[1] + height[0] * rows, 5.4 if columns == 1 else TEXT_WIDTH)
+    grid = figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
+    for axes in grid.flat[number:]:
+        axes.set_visible(False)
+    return figure, grid
 
 
 def label_axis(axes: Axes, along: AxisOf, which: str) -> None:

@@ -121,7 +121,7 @@ def _range(text: str, parameter: Parameter) -> list[Any] | None:
     elif match["by"]:
         numbers = _by(*ends, match["by"], "" if of else parameter.unit, parameter.limits.whole)
     elif parameter.limits.whole:
-        numbers = _by_step(*ends, 1.0)
+        numbers = by_step(*ends, 1.0)
     else:
         raise UnitError(f"needs a step or a number of values; {_FORM}")
     rounded = [float(f"{n:.12g}") for n in numbers]
@@ -158,13 +158,14 @@ def _by(first: float, last: float, text: str, unit: str, whole: bool) -> list[fl
         if first * last <= 0.0:
             raise UnitError("must not reach zero where it is logarithmic")
         return [first * (last / first) ** (k / (bare - 1)) for k in range(bare)]
-    return _by_step(first, last, to_si(text, unit))
+    return by_step(first, last, to_si(text, unit))
 
 
-def _by_step(first: float, last: float, step: float) -> list[float]:
+def by_step(first: float, last: float, step: float, most: int = MOST) -> list[float]:
+    """Values from the first to the last, at most so many; ``UnitError`` for no whole steps."""
     count = (last - first) / step if step else math.inf
-    if not 0 <= count <= MOST - 1 or abs(count - round(count)) > 1e-6:
-        allowed = f"must lead from the first to the last value in whole steps, {MOST} at most"
+    if not 0 <= count <= most - 1 or abs(count - round(count)) > 1e-6:
+        allowed = f"must lead from the first to the last value in whole steps, {most} at most"
         raise UnitError(allowed)
     return [first + k * step for k in range(round(count) + 1)]
 

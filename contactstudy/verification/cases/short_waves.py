@@ -15,6 +15,7 @@ from contactstudy.study.kinds.passage.execution import execute_run
 from contactstudy.study.kinds.passage.runs import PointRun, SurfaceRun
 from contactstudy.study.kinds.passage.schema import Study
 from contactstudy.study.kinds.passage.solid import Solid
+from contactstudy.study.kinds.passage.twins import twins
 from contactstudy.track.beam import BeamTrack
 from contactstudy.track.model import Track
 from contactstudy.track.receptance import receptance
@@ -151,7 +152,6 @@ def _study(
     step = min(wavelength / STEPS / (speed / 3.6), 2.5e-5)
     steps = int(np.ceil((_FADE + _LENGTH) / (step * speed / 3.6)))
     named = dict(zip(_names(runs), runs.values(), strict=True))
-    smooth = {f"{name}_smooth": replace(run, irregularity="smooth") for name, run in named.items()}
     return Study(
         name="short_waves",
         title="Short waves",
@@ -163,12 +163,13 @@ def _study(
             _START, _START + steps * step * speed / 3.6, speed / 3.6, step, fade_in=_FADE
         ),
         solid=Solid(mesh_size=mesh),
-        runs=named | smooth,
+        runs=named,
+        smooth=True,
     )
 
 
 def _caused(study: Study, run: str) -> Array:
     """Contact force in N that the irregularity causes after the fade-in."""
-    rough, smooth = execute_run(study, run), execute_run(study, f"{run}_smooth")
+    rough, smooth = execute_run(study, run), execute_run(study, twins(study)[run])
     late = np.ravel(rough.position) >= _START + _FADE
     return np.asarray(np.ravel(rough.contact_force) - np.ravel(smooth.contact_force))[late]

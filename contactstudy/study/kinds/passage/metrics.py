@@ -134,7 +134,7 @@ def _compare_signals(
         "sprague_geers": _sprague_geers(a, b, x),
     }
     of_run, of_reference = parts_of(run, name), parts_of(reference, name)
-    for part in of_run.keys() & of_reference.keys():
+    for part in (part for part in of_run if part in of_reference):
         pair = (
             norms.at_positions(of_run[part], x_run, x),
             norms.at_positions(of_reference[part], x_reference, x),

@@ -34,7 +34,7 @@ class PointRun(Run):
     tangent at the static load; ``law = "press"`` is the press itself.
 
     ``contact_filter`` says what the contact makes of the irregularity, see
-    `contactstudy.contact.filters` and `contactstudy.contact.bedding`.
+    `contactstudy.contact.filters` and `contactstudy.contact.patch_laws`.
     """
 
     solver: ClassVar[str] = "point"

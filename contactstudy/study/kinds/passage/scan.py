@@ -11,6 +11,7 @@ from contactstudy.exceptions import InputError
 from contactstudy.geometry.pose import Pose
 from contactstudy.given_files import is_file
 from contactstudy.profiles.curve import ProfileCurve
+from contactstudy.profiles.outliers import LARGEST_RESIDUAL
 from contactstudy.scans import Meeting, Scan, meeting, read_scan
 from contactstudy.validation import (
     AtLeast,
@@ -48,7 +49,9 @@ class ScanFiles(Parameters):
     smoothing: Annotated[
         float, Unit("m"), AtLeast(1e-5), AtMost(0.01), "least distance of the fitted curve's knots"
     ] = 1e-3
-    residual_limit: Annotated[q.Length, "largest root mean square of the residual"] = 1e-4
+    residual_limit: Annotated[q.Length, "largest root mean square of the residual"] = (
+        LARGEST_RESIDUAL
+    )
 
     @property
     def used(self) -> bool:

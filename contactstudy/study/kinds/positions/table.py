@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import re
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -13,6 +12,7 @@ from contactstudy.exceptions import InputError
 from contactstudy.geometry.wheelset import SIDES, Side, Wheelset, WheelsetDimensions
 from contactstudy.halfspace.hertz import contact_modulus
 from contactstudy.profiles.wheel_file import named_file_digest
+from contactstudy.study.axes.series import by_step
 from contactstudy.study.kinds.passage.wheelset import (
     PATHS,
     WheelsetPosition,
@@ -51,12 +51,7 @@ def _series(value: Any, unit: str) -> Any:
     """List of one quantity, or of "0 mm to 10 mm by 0.5 mm"; a list, or "rest", as it is."""
     if isinstance(value, str) and (match := _RANGE.fullmatch(value.strip())):
         first, last, step = (to_si(part, unit) for part in match.groups())
-        count = (last - first) / step if step else math.inf
-        if not 0 <= count <= _MOST - 1 or abs(count - round(count)) > 1e-6:
-            raise UnitError(
-                f"must lead from the first to the last value in whole steps, {_MOST} at most"
-            )
-        return [float(f"{first + k * step:.12g}") for k in range(round(count) + 1)]
+        return [float(f"{x:.12g}") for x in by_step(first, last, step, _MOST)]
     given = as_list(value)
     if given is None:
         return [value]

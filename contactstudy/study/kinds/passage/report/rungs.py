@@ -65,21 +65,19 @@ def _nearer(above: Rung, rung: Rung) -> bool:
 
 def rung_table(results: StudyResults) -> Block | None:
     """Difference of each signal's dynamic part from the rung above."""
-    rungs = ladder(results)
-    if not rungs:
-        return None
-    signals = [s for s in SIGNALS if any(ladder_step(results, r, s.name) for r in rungs)]
+    steps = {
+        signal: [rung.step.get(DYNAMIC) for rung in ladder(results, signal.name)]
+        for signal in SIGNALS
+    }
+    shown = [signal for signal, values in steps.items() if any(values)]
     rows = [
-        [label(r.name), *(rounded(ladder_step(results, r, s.name)) for s in signals)] for r in rungs
+        [label(rung.name), *(rounded(steps[signal][k]) for signal in shown)]
+        for k, rung in enumerate(ladder(results))
     ]
+    if not rows:
+        return None
     return table(
-        ["Rung", *(s.label for s in signals)],
+        ["Rung", *(signal.label for signal in shown)],
         rows,
         "Difference from the rung above in per cent of the dynamic part, for each signal.",
     )
-
-
-def ladder_step(results: StudyResults, rung: Rung, signal: str) -> float | None:
-    """Difference of a signal's dynamic part from the rung above, in per cent."""
-    found = results.metrics["rungs"][rung.name].get(signal, {}).get(DYNAMIC)
-    return None if found is None else 100.0 * float(found)
