@@ -56,6 +56,11 @@ class TrustMap:
     speed: AxisOf
 
     @property
+    def edges(self) -> tuple[Array, Array]:
+        """Edges of the cells along wavelength and amplitude, on logarithmic axes."""
+        return edges(self.wavelength, True), edges(self.amplitude, True)
+
+    @property
     def runs(self) -> list[str]:
         """The schemes."""
         return [str(run) for run in self.errors["run"].values]
@@ -131,9 +136,8 @@ def _draw(found: TrustMap) -> Figure:
         for k, axes in enumerate(row):
             values = found.errors.sel(run=run).values[k]
             mesh = axes.pcolormesh(
-                edges(found.wavelength), edges(found.amplitude), values, norm=norm,
-                cmap="viridis_r", rasterized=True,
-            )  # fmt: skip
+                *found.edges, values, norm=norm, cmap="viridis_r", rasterized=True
+            )
             _overlay(axes, found, values, k)
             axes.set(xscale="log", yscale="log")
             axes.grid(False)
@@ -159,13 +163,12 @@ def _overlay(axes: Axes, found: TrustMap, values: Array, speed: int) -> None:
             axes.contour(x, y, lost, levels=[0.5], colors=VERMILION, linewidths=1.0)
     if found.own is not None:
         doubtful = found.own.values[speed][None, :] > _SHARE * values
-        hatch(axes, found.wavelength, found.amplitude, doubtful)
-    low, high = edges(found.amplitude)[[0, -1]]
+        hatch(axes, *found.edges, doubtful)
     unit = _units(found)
     for (wave, amplitude), color, dashes in ((_limit(), BLUE, "-"), (_paper(), GREY, "--")):
         at = (wave * unit[0] >= x.min()) & (wave * unit[0] <= x.max())
         axes.plot(wave[at] * unit[0], amplitude[at] * unit[1], color=color, ls=dashes, lw=0.9)
-    axes.set_ylim(low, high)
+    axes.set_ylim(found.edges[1][0], found.edges[1][-1])
 
 
 def _units(found: TrustMap) -> tuple[float, float]:

@@ -79,13 +79,11 @@ def _draw(quantity: Shown, along: AxisOf, up: AxisOf, panels: list[Panel]) -> Fi
     there = every[np.isfinite(every)]
     log = parts.wide(every)
     norm: Normalize = (LogNorm if log else Normalize)(there.min(), there.max())
-    mesh = None
+    mesh, x, y = None, edges(along), edges(up)
     for axes, panel in zip(grid.flat, panels, strict=False):
-        mesh = axes.pcolormesh(
-            edges(along), edges(up), panel.values, norm=norm, cmap="viridis_r", rasterized=True
-        )
+        mesh = axes.pcolormesh(x, y, panel.values, norm=norm, cmap="viridis_r", rasterized=True)
         _contours(axes, along, up, panel.values, log)
-        hatch(axes, along, up, panel.failed)
+        hatch(axes, x, y, panel.failed)
         parts.label_axis(axes, along, "x")
         parts.label_axis(axes, up, "y")
         axes.label_outer()
@@ -96,14 +94,15 @@ def _draw(quantity: Shown, along: AxisOf, up: AxisOf, panels: list[Panel]) -> Fi
     return figure
 
 
-def edges(along: AxisOf) -> Array:
+def edges(along: AxisOf, logarithmic: bool | None = None) -> Array:
     """Edges (n + 1,) of cells about the values, half way (of logarithms on such an axis)."""
-    at = np.log(along.at) if along.logarithmic else along.at
+    log = along.logarithmic if logarithmic is None else logarithmic
+    at = np.log(along.at) if log else along.at
     if len(at) == 1:
         return np.array([at[0] - 0.5, at[0] + 0.5])
     middle = 0.5 * (at[1:] + at[:-1])
     found = np.concatenate([[2 * at[0] - middle[0]], middle, [2 * at[-1] - middle[-1]]])
-    return np.exp(found) if along.logarithmic else found
+    return np.exp(found) if log else found
 
 
 def _contours(axes: Axes, along: AxisOf, up: AxisOf, values: Array, log: bool) -> None:
@@ -124,10 +123,8 @@ def _contours(axes: Axes, along: AxisOf, up: AxisOf, values: Array, log: bool) -
     axes.clabel(lines, fontsize=7, fmt=lambda v: number(v, 2))
 
 
-def hatch(axes: Axes, along: AxisOf, up: AxisOf, where: Any) -> None:
-    """Hatch the cells (ny, nx) of a map that are marked."""
+def hatch(axes: Axes, x: Array, y: Array, where: Any) -> None:
+    """Hatch the cells (ny, nx) of a map that are marked, between edges x (nx + 1,), y (ny + 1,)."""
     if where.any():
         holes = np.ma.masked_where(~where, np.ones(where.shape))
-        axes.pcolor(
-            edges(along), edges(up), holes, facecolor="none", hatch="////", edgecolor=GREY, lw=0
-        )
+        axes.pcolor(x, y, holes, facecolor="none", hatch="////", edgecolor=GREY, lw=0)
