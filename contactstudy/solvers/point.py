@@ -94,7 +94,7 @@ def point_contact(
         integrator = generalised_alpha(RIGID_SPECTRAL_RADIUS) if rigid else average_acceleration()
     discrete = BeamTrack(track) if isinstance(track, Track) else track
     raise_if(not_discrete(discrete))
-    problems = journey.problems_on(discrete.track, vehicle)
+    problems = journey.problems_on(discrete.track, vehicle) + vehicle.problems_on_one_rail()
     problems += _law_problems(law, contact_filter, discrete.direction, integrator)
     for observer in observers:
         problems += observer.problems_on(journey)

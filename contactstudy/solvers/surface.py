@@ -70,6 +70,7 @@ def surface_contact(
     began = time.perf_counter()
     raise_if(not_meshed(track))
     problems = journey.problems_on(track.track, vehicle) + contact.problems_on(track)
+    problems += vehicle.problems_on_one_rail()
     if vehicle.n_wheels != 1:
         problems.append(
             f"surface contact: the vehicle has {vehicle.n_wheels} wheels; exactly one is possible"

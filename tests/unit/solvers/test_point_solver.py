@@ -254,3 +254,20 @@ def test_a_beam_that_nothing_holds_is_reported():
     point_contact(track, bare_wheel(1.0, 1.0), SmoothRail(), SHORT, law=LinearSpring(1e6))
     with pytest.raises(InputError, match="nothing holds"):
         Track(Rail(), None, 9.0, "free")
+
+
+def test_a_vehicle_on_two_rails_is_refused_on_one():
+    two = Vehicle(
+        mass=np.diag([1800.0, 800.0]),
+        damping=np.zeros((2, 2)),
+        stiffness=np.zeros((2, 2)),
+        wheel_dofs=np.zeros(0, dtype=int),
+        wheel_offsets=np.zeros(2),
+        static_loads=np.full(2, 7e4),
+        dof_names=("heave", "roll"),
+        contact_rows=np.array([[1.0, -0.75], [1.0, 0.75]]),
+        contact_rails=np.array([0, 1]),
+    )
+    with pytest.raises(InputError, match="this track has one rail") as caught:
+        point_contact(TRACK, two, ROUGH, SHORT, law=LinearSpring(1e9))
+    assert len(caught.value.problems) == 1
