@@ -29,3 +29,12 @@ def level_differences(a: Array, b: Array, x: Array, speed: float) -> dict[str, f
         for centre, one, other in zip(nominal, *pair, strict=True)
         if one > 0.0 and other > 0.0
     }
+
+
+def share_above(signal: Array, time_step: float, frequency: float) -> float:
+    """Share of the variance of a signal (n,) above a frequency [Hz]; 0 of a constant one."""
+    power = np.abs(np.fft.rfft(signal - np.mean(signal))) ** 2
+    if len(signal) % 2 == 0:
+        power[-1] *= 0.5  # the last line has no twin at its negative frequency
+    fast = np.fft.rfftfreq(len(signal), time_step) > frequency
+    return float(power[fast].sum() / power.sum()) if np.any(power > 0.0) else 0.0

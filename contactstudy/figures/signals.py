@@ -31,6 +31,7 @@ SIGNALS = (
     Signal("wheel_displacement", "Wheel displacement", "Displacement", "mm", 1e3),
     Signal("wheel_acceleration", "Wheel acceleration", "Acceleration", "m/s²", 1.0),
     Signal("rail_displacement", "Rail displacement at the wheel", "Displacement", "mm", 1e3),
+    Signal("rail_acceleration", "Rail acceleration under the wheel", "Acceleration", "m/s²", 1.0),
 )
 
 

@@ -18,6 +18,10 @@ SIGNALS: dict[str, tuple[str, str]] = {
     "wheel_displacement": ("m", "vertical displacement of the wheel, up"),
     "wheel_acceleration": ("m/s^2", "vertical acceleration of the wheel, up"),
     "rail_displacement": ("m", "displacement of the rail's centre line at the wheel, up"),
+    "rail_acceleration": (
+        "m/s^2",
+        "vertical acceleration of the point of the rail's centre line under the wheel, up",
+    ),
     "rail_lateral": ("m", "lateral displacement of the rail's section under the wheel"),
     "rail_roll": ("rad", "roll of the rail's section under the wheel"),
     "irregularity": ("m", "irregularity under the wheel, faded in, up"),

@@ -24,6 +24,12 @@ class Histories(Watch):
     Of the contact it records what its steps record. "rail_residual" there is what the contact
     force adds to the deflection under the wheel beyond the track's dofs, and goes into
     `rail_displacement`.
+
+    The rail's acceleration is that of the point of the rail which the wheel is passing,
+    d2w/dt2 at fixed X = N(X) a with the rail's rows N: what an accelerometer there shows in that
+    moment. It is not the second derivative of `rail_displacement` in time, for that follows the
+    wheel from point to point, d2/dt2 w(vt, t) = w_tt + 2 v w_xt + v^2 w_xx; and what
+    `rail_residual` adds has no inertia, so no part in it.
     """
 
     def __init__(self, passage: Passage[DiscreteTrack]) -> None:
@@ -35,7 +41,8 @@ class Histories(Watch):
         ]
         self._at_stations = track.rail_rows(np.asarray(stations, dtype=float))
         self._stations = np.empty((shape[0], len(stations)))
-        self._wheel_u, self._wheel_a, self._rail_u = (np.empty(shape) for _ in range(3))
+        self._wheel_u, self._wheel_a = np.empty(shape), np.empty(shape)
+        self._rail_u, self._rail_a = np.empty(shape), np.empty(shape)
         self._contact: dict[str, Array] = {}
 
     def see(self, state: State) -> None:
@@ -50,6 +57,7 @@ class Histories(Watch):
         self._wheel_u[step], self._wheel_a[step] = u[self._wheels], state.a[self._wheels]
         dofs, weights = self._rail
         self._rail_u[step] = row_values(dofs[step], weights[step], u)
+        self._rail_a[step] = row_values(dofs[step], weights[step], state.a)
         if self._stations.size:
             self._stations[step] = row_values(*self._at_stations, u)
 
@@ -64,6 +72,7 @@ class Histories(Watch):
                 "wheel_displacement": self._wheel_u,
                 "wheel_acceleration": self._wheel_a,
                 "rail_displacement": self._rail_u + contact.pop("rail_residual"),
+                "rail_acceleration": self._rail_a,
                 "irregularity": self._passage.roughness,
                 **contact,
             },

@@ -95,6 +95,7 @@ def made_run(k, rough, name):
             "wheel_displacement": signal(r * 0.9 - 0.8e-3, "m", "wheel displacement"),
             "wheel_acceleration": signal((STATIC - force) / 890, "m/s^2", "wheel acceleration"),
             "rail_displacement": signal(-force / STATIC * 0.7e-3, "m", "rail displacement"),
+            "rail_acceleration": signal((force - STATIC) / 60, "m/s^2", "rail acceleration"),
             "irregularity": signal(r, "m", "irregularity"),
         },
         coords={"time": time, "position": ("time", x)},

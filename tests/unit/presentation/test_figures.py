@@ -19,6 +19,7 @@ LABELS = {
     "wheel_displacement": {"Displacement\n(mm)", "Difference\n(mm)"},
     "wheel_acceleration": {"Acceleration\n(m/s²)", "Difference\n(m/s²)"},
     "rail_displacement": {"Displacement\n(mm)", "Difference\n(mm)"},
+    "rail_acceleration": {"Acceleration\n(m/s²)", "Difference\n(m/s²)"},
     "third_octaves": {"Third-octave band centre (Hz)", "Force level (dB re 1 N)", "(dB)"},
     "patch_pressure": {"Along the rail (mm)", "Across the rail (mm)", "Pressure (MPa)"},
     "patch_history": {"Contact area (mm²)", "Peak pressure (MPa)"},
@@ -74,6 +75,7 @@ def test_missing_optional_data_leaves_figures_out(bare):
         "wheel_displacement",
         "wheel_acceleration",
         "rail_displacement",
+        "rail_acceleration",
         "third_octaves",
     ]
     assert names == signals

@@ -132,7 +132,7 @@ def test_errors_stand_in_the_tables_as_in_the_metrics(made):
     study, *_ = made
     part = content(study, False)["results"][-1]
     tables = [b for b in part["blocks"] if b["kind"] == "table"]
-    assert len(tables) == 4
+    assert len(tables) == 5
     found = study.metrics["comparisons"]["point"]["contact_force"]
     row = next(r for r in tables[0]["rows"] if r[0] == "point")
     assert float(row[1]) == pytest.approx(100 * found["relative_l2"], rel=5e-3)

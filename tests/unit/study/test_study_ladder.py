@@ -7,8 +7,8 @@ import xarray as xr
 from contactstudy.figures.ladder import ladder
 from contactstudy.figures.stiffness import Curve
 from contactstudy.solvers.journey import Journey
-from contactstudy.study.kinds.passage.metrics import rungs
-from contactstudy.study.kinds.passage.report.rungs import sentences
+from contactstudy.study.kinds.passage.metrics import compare_runs, rungs
+from contactstudy.study.kinds.passage.report.rungs import rung_tables, sentences
 from contactstudy.study.loading import base_of, load_companions, load_study
 from contactstudy.study.results import StudyResults
 
@@ -39,16 +39,35 @@ def test_sentences_of_a_ladder_follow_from_its_numbers():
         name: {"contact_force": {"relative_l2": 0.0, "relative_l2_dynamic": abs(a / 10.0 - 1.0)}}
         for name, a in (("near", 10.1), ("far", 15.0), ("back", 12.0))
     }
-    metrics = {"rungs": rungs(runs, 0.0), "comparisons": top}
-    results = StudyResults(
-        name="l", title="l", description="", config={}, units={}, runs=runs,
-        reference="top", metrics=metrics,
-    )  # fmt: skip
+    results = results_of(runs, {"rungs": rungs(runs, 0.0), "comparisons": top})
     (text,) = sentences(results)
     assert "largest step, 48.5 %, is that from near to far" in text
     assert "All rungs above far are within 1.00 % of the top" in text
     assert "back (20.0 %): errors that cancel" in text
     assert [r.above for r in ladder(results)] == ["top", "near", "far"]
+
+
+def test_tables_of_a_ladder_hold_all_signals_from_the_top_and_from_above():
+    runs = made_ladder({"top": 10.0, "near": 11.0, "far": 22.0})
+    for run in runs.values():
+        run["rail_acceleration"] = 2.0 * (run["contact_force"] - 1000.0)
+        run["contact_force_smooth"] = 0.0 * run["contact_force"] + 1000.0
+    top = {name: compare_runs(runs[name], runs["top"], 0.0, bands=False) for name in runs}
+    results = results_of(runs, {"rungs": rungs(runs, 0.0), "comparisons": top})
+    tables = rung_tables(results)
+    columns = ["Rung", "Force, total", "Force, dynamic part", "Force, part of the irregularity"]
+    columns.append("Rail acceleration under the wheel")
+    assert all([c["title"] for c in t["columns"]] == columns for t in tables)
+    (near, far), (near_above, far_above) = (t["rows"] for t in tables)
+    assert (near[2:], far[2:]) == (["10.0"] * 3, ["120"] * 3)
+    assert (near_above[2:], far_above[2:]) == (["10.0"] * 3, ["100"] * 3)
+
+
+def results_of(runs, metrics):
+    return StudyResults(
+        name="l", title="l", description="", config={}, units={}, runs=runs,
+        reference="top", metrics=metrics,
+    )  # fmt: skip
 
 
 def test_a_journey_fits_a_sinusoid_and_keeps_what_is_given():

@@ -8,7 +8,7 @@ from contactstudy.report.blocks import Block, cited, figure, paragraphs, text
 from contactstudy.study.kind import Part, Report
 from contactstudy.study.kinds.passage.drawings import drawings
 from contactstudy.study.kinds.passage.report.abstract import GRADES, abstract
-from contactstudy.study.kinds.passage.report.rungs import rung_table
+from contactstudy.study.kinds.passage.report.rungs import rung_tables
 from contactstudy.study.kinds.passage.report.stress_table import stress_tables
 from contactstudy.study.kinds.passage.report.tables import error_tables, passing_table, run_table
 from contactstudy.study.results import StudyResults
@@ -21,7 +21,7 @@ _PARTS = (
     ("Irregularity", ("irregularity_spectrum", "irregularity_profile")),
     ("Contact force", ("contact_force", "third_octaves")),
     ("Motion of the wheel", ("wheel_displacement", "wheel_acceleration")),
-    ("Motion of the rail", ("rail_displacement",)),
+    ("Motion of the rail", ("rail_displacement", "rail_acceleration")),
     (
         "Contact patch",
         (
@@ -86,8 +86,8 @@ def _parts(results: StudyResults) -> list[Part]:
         blocks = [figure(d.name, d.caption) for d in made if d.name.startswith(names)]
         if title == "Contact patch":
             blocks += stress_tables(results)
-        if title == "The ladder" and (steps := rung_table(results)) is not None:
-            blocks.append(steps)
+        if title == "The ladder":
+            blocks += rung_tables(results)
         profile = irregularity_of(results).profile if title == "Irregularity" else None
         if profile is not None and not profile.level.any():
             blocks.append(text("The irregularity is zero throughout: the rail is smooth."))

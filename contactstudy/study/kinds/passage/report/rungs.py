@@ -1,9 +1,12 @@
-"""What a ladder says: sentences that follow from the numbers, and the table of its steps."""
+"""What a ladder says: sentences that follow from the numbers, and tables of its errors."""
 
+from collections.abc import Mapping
 from itertools import pairwise
 
-from contactstudy.figures.ladder import DYNAMIC, IRREGULARITY, Rung, ladder
-from contactstudy.figures.signals import SIGNALS
+from contactstudy.compare.bands import share_above
+from contactstudy.compare.signals import values
+from contactstudy.figures.ladder import DYNAMIC, IRREGULARITY, PARTS, Rung, ladder
+from contactstudy.figures.signals import SIGNALS, Signal
 from contactstudy.plot.text import label
 from contactstudy.report.blocks import Block, table
 from contactstudy.report.quantity import rounded
@@ -11,6 +14,8 @@ from contactstudy.study.results import StudyResults
 
 _LARGE = 3.0
 """A step that exceeds the error of the rung above so many times is called decisive."""
+_FAST = 2e3
+"""Where beams and meshes of the usual sizes part [Hz]."""
 
 
 def sentences(results: StudyResults) -> list[str]:
@@ -63,21 +68,57 @@ def _nearer(above: Rung, rung: Rung) -> bool:
     return rung.from_top[DYNAMIC] < 0.95 * above.from_top[DYNAMIC]
 
 
-def rung_table(results: StudyResults) -> Block | None:
-    """Difference of each signal's dynamic part from the rung above."""
-    steps = {
-        signal: [rung.step.get(DYNAMIC) for rung in ladder(results, signal.name)]
-        for signal in SIGNALS
-    }
-    shown = [signal for signal, values in steps.items() if any(values)]
-    rows = [
-        [label(rung.name), *(rounded(steps[signal][k]) for signal in shown)]
-        for k, rung in enumerate(ladder(results))
+def rung_tables(results: StudyResults) -> list[Block]:
+    """Error of every rung against the top, and against the rung above: parts of all signals."""
+    of_signals = {signal: ladder(results, signal.name) for signal in SIGNALS}
+    shown = [
+        (signal, part)
+        for signal, rungs in of_signals.items()
+        for part in (PARTS if signal.name == "contact_force" else (DYNAMIC,))
+        if any(part in rung.from_top for rung in rungs)
     ]
-    if not rows:
-        return None
-    return table(
-        ["Rung", *(signal.label for signal in shown)],
-        rows,
-        "Difference from the rung above in per cent of the dynamic part, for each signal.",
+    columns = ["Rung", *(_heading(signal, part) for signal, part in shown)]
+    tables: list[Block] = []
+    for words, measured in (("the top", _from_top), ("the rung above", _from_above)):
+        rows = [
+            [
+                label(rung.name),
+                *(rounded(measured(of_signals[signal][k]).get(part)) for signal, part in shown),
+            ]
+            for k, rung in enumerate(ladder(results))
+        ]
+        if rows:
+            caption = (
+                f"Relative L₂ difference from {words} in per cent; of motions the dynamic part."
+            )
+            tables.append(table(columns, rows, caption, note=_fast(results) if tables else ""))
+    return tables
+
+
+def _fast(results: StudyResults) -> str:
+    """What to think of the rail's acceleration where most of it is fast."""
+    top = results.runs[str(results.reference)]
+    if "rail_acceleration" not in top:
+        return ""
+    time_step = float(top["time"][1] - top["time"][0])
+    share = share_above(values(top, "rail_acceleration"), time_step, _FAST)
+    if share < 0.5:
+        return ""
+    return (
+        f"{rounded(100 * share, 2)} % of the variance of the rail's acceleration in "
+        f"{label(str(results.reference))} lie above {_FAST / 1e3:g} kHz. There the spread of the "
+        "load over the rail and the length of the elements decide, so that these differences say "
+        "little of the force."
     )
+
+
+def _heading(signal: Signal, part: str) -> str:
+    return f"Force, {PARTS[part][0]}" if signal.name == "contact_force" else signal.label
+
+
+def _from_top(rung: Rung) -> Mapping[str, float]:
+    return rung.from_top
+
+
+def _from_above(rung: Rung) -> Mapping[str, float]:
+    return rung.step
