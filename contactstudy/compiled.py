@@ -3,19 +3,23 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable
+import hashlib
+import inspect
+from collections.abc import Callable, Iterator
+from pathlib import Path
 from typing import Any
 
 
 class Compiled:
     """A function that numba compiles at its first call, or takes from its cache on disk.
 
-    It may call other compiled functions of its module; the options are those of ``numba.njit``.
+    It may call other compiled functions, of other modules too, and use their constants; the
+    options are those of ``numba.njit``.
     """
 
     def __init__(self, function: Callable[..., Any], **options: Any) -> None:
         functools.update_wrapper(self, function)
-        self._function, self._options = function, options
+        self.py_func, self._options = function, options
 
     def __call__(self, *arguments: Any) -> Any:
         """Call it with positional arguments only."""
@@ -26,17 +30,22 @@ class Compiled:
         """The function as numba makes it."""
         from numba import njit
 
-        known = self._function.__globals__
-        for name in self._function.__code__.co_names:
+        function = self.py_func
+        known = function.__globals__
+        # numba looks at a function's own file only to see whether what it kept is still valid;
+        # what is kept stands under the qualified name
+        if elsewhere := _modules(function) - {function.__module__}:
+            function.__qualname__ += f"-{_digest(elsewhere)}"
+        for name in function.__code__.co_names:
             if isinstance(known.get(name), Compiled):  # numba must find its own there
                 known[name] = known[name].compiled
         found: Callable[..., Any]
         try:
-            found = njit(cache=True, **self._options)(self._function)
+            found = njit(cache=True, **self._options)(function)
         except RuntimeError:  # no folder to keep it in, neither beside the code nor the user's
-            found = njit(**self._options)(self._function)
-        if known.get(self._function.__name__) is self:  # its own module need not ask again
-            known[self._function.__name__] = found
+            found = njit(**self._options)(function)
+        if known.get(function.__name__) is self:  # its own module need not ask again
+            known[function.__name__] = found
         return found
 
 
@@ -48,3 +57,32 @@ def compiled(function: Callable[..., Any]) -> Compiled:
 def compiled_in_any_order(function: Callable[..., Any]) -> Compiled:
     """Compile a sum whose terms may be added in any order; a decorator."""
     return Compiled(function, fastmath={"reassoc", "contract"})
+
+
+def _modules(function: Callable[..., Any]) -> set[str]:
+    """Modules of the functions that are compiled into one, its own included."""
+    found, waiting = set[Callable[..., Any]](), [function]
+    while waiting:
+        one = waiting.pop()
+        if one not in found:
+            found.add(one)
+            waiting += _called(one)
+    return {one.__module__ for one in found}
+
+
+def _called(function: Callable[..., Any]) -> Iterator[Callable[..., Any]]:
+    """Compiled functions that are named in one, whether numba has them already or not."""
+    for name in function.__code__.co_names:
+        named = function.__globals__.get(name)
+        if (callee := getattr(named, "py_func", None)) is not None:
+            yield callee
+
+
+def _digest(modules: set[str]) -> str:
+    """Short hash of the source of modules."""
+    import sys
+
+    total = hashlib.sha256()
+    for module in sorted(modules):
+        total.update(Path(inspect.getfile(sys.modules[module])).read_bytes())
+    return total.hexdigest()[:12]

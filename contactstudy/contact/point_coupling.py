@@ -17,7 +17,8 @@ import numpy as np
 from contactstudy.arrays import Array, IntArray
 from contactstudy.contact.laws import Law, point_forces
 from contactstudy.dynamics.banded import Factor
-from contactstudy.dynamics.rows import dense_rows, row_products, row_values
+from contactstudy.dynamics.columns import LocalColumns, add_columns, compliance
+from contactstudy.dynamics.rows import add_rows, row_values
 from contactstudy.dynamics.stepper import ContactStep
 
 
@@ -80,27 +81,30 @@ class PointCoupling:
         return AttachedPoint(self, factor, scale)
 
 
-@dataclass(frozen=True)
 class AttachedPoint:
-    """A `PointCoupling` on the system with the compliance scale * S^-1."""
+    """A `PointCoupling` on the system with the compliance scale * S^-1.
 
-    coupling: PointCoupling
-    factor: Factor
-    scale: float
+    Between calls it keeps the columns of S^-1 near the wheels, and no state of the contact.
+    """
+
+    def __init__(self, coupling: PointCoupling, factor: Factor, scale: float) -> None:
+        self._coupling, self._scale = coupling, scale
+        self._columns, self._work = LocalColumns(factor), np.zeros(factor.n)
 
     def __call__(self, step: int, u_free: Array, state: None) -> ContactStep:
         """Forces at the end of a step; every row adds up, two wheels in one element too."""
-        coupling, gaps = self.coupling, self.coupling.gaps
+        coupling, gaps = self._coupling, self._coupling.gaps
         dofs, weights, local = gaps.dofs[step], gaps.weights[step], gaps.compliance[step]
-        rows = dense_rows(dofs, weights, self.factor.n)  # B
-        moved = np.empty_like(rows)  # (1-af) B S^-1
-        for i, row in enumerate(rows):
-            np.multiply(self.scale, self.factor.solve(row), out=moved[i])
+        columns = self._columns.at(dofs)
         # W_ij = (1-af) B_i S^-1 B_j^T, and the loaded element's own share on the diagonal
-        compliance = row_products(dofs, weights, moved)
-        compliance.flat[:: len(dofs) + 1] += local
+        W = self._scale * compliance(columns, dofs, weights, self._work)
+        W.flat[:: len(dofs) + 1] += local
         free_gap = row_values(dofs, weights, u_free) - gaps.irregularity[step]
         loads, bilateral = coupling.static_loads, coupling.bilateral
-        force = point_forces(coupling.law, compliance, free_gap, loads, bilateral, gaps.shape[step])
-        record = {"contact_force": force, "rail_residual": -local * force}
-        return ContactStep(force @ rows, force @ moved, record)
+        force = point_forces(coupling.law, W, free_gap, loads, bilateral, gaps.shape[step])
+        load, increment = np.zeros_like(u_free), np.zeros_like(u_free)
+        add_rows(dofs, weights, force, load)
+        add_columns(columns, dofs, weights, self._scale * force, increment)
+        return ContactStep(
+            load, increment, {"contact_force": force, "rail_residual": -local * force}
+        )

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import scipy.linalg
@@ -79,8 +79,8 @@ class Factor:
             ) from error
 
     @cached_property
-    def _blocks(self) -> tuple[Array, Array, IntArray]:
-        """L in blocks of 8 rows: left of each diagonal block, its inverse, leading zeros.
+    def blocks(self) -> "Blocks":
+        """L in blocks of 8 rows.
 
         A row by row solution waits for every single dot product; the eight of a block do not wait
         for each other. Where the band is narrower than at its widest, the leading
@@ -100,17 +100,17 @@ class Factor:
         left = np.ascontiguousarray(blocks[:, :, :width])
         filled = np.any(left != 0.0, axis=1)
         lead = np.where(filled.any(axis=1), filled.argmax(axis=1), width)
-        return left, np.tril(np.linalg.inv(blocks[:, :, width:])), lead
+        return Blocks(left, np.tril(np.linalg.inv(blocks[:, :, width:])), lead)
 
     def solve(self, b: Array) -> Array:
         """Solve for one or several right-hand sides, (n,) or (n, k); b is left as it is."""
-        left, inverse, lead = self._blocks
-        n_blocks, _, width = left.shape
+        blocks = self.blocks
+        n_blocks, _, width = blocks.left.shape
         if b.ndim == 1:
             x = np.zeros(width + n_blocks * BLOCK)
             x[width : width + self.n] = b
-            _forward(left, inverse, lead, x, 0, n_blocks)
-            _backward(left, inverse, lead, x, 0, n_blocks)
+            _forward(blocks, x, 0, n_blocks)
+            _backward(blocks, x, 0, n_blocks)
             return x[width : width + self.n]
         columns = np.zeros((b.shape[1], width + n_blocks * BLOCK))
         columns[:, width : width + self.n] = b.T
@@ -118,16 +118,35 @@ class Factor:
             nonzero = np.flatnonzero(x)
             if len(nonzero):
                 first, last = (nonzero[[0, -1]] - width) // BLOCK
-                _solve_near(left, inverse, lead, x, first, last + 1)
+                solve_near(blocks, x, first, last + 1)
         return columns[:, width : width + self.n].T
 
 
+class Blocks(NamedTuple):
+    """A factor L in blocks of 8 rows, as the compiled functions below take it.
+
+    Attributes
+    ----------
+    left : ndarray (n_blocks, 8, width)
+        Left of each diagonal block.
+    inverse : ndarray (n_blocks, 8, 8)
+        Of each diagonal block.
+    lead : ndarray (n_blocks,)
+        Leading zeros of each block of `left`.
+    """
+
+    left: Array
+    inverse: Array
+    lead: IntArray
+
+
 @compiled_in_any_order
-def _forward(left: Array, inverse: Array, lead: IntArray, x: Array, first: int, stop: int) -> None:
+def _forward(blocks: Blocks, x: Array, first: int, stop: int) -> None:
     """L y = b on blocks first .. stop - 1: y_i = D_i^-1 (b_i - P_i y_before).
 
     x holds b on entry, below as many zeros as `left` is wide.
     """
+    left, inverse, lead = blocks
     width = left.shape[2]
     y = np.empty(8)
     for block in range(first, stop):
@@ -149,8 +168,9 @@ def _forward(left: Array, inverse: Array, lead: IntArray, x: Array, first: int, 
 
 
 @compiled_in_any_order
-def _backward(left: Array, inverse: Array, lead: IntArray, x: Array, first: int, stop: int) -> None:
+def _backward(blocks: Blocks, x: Array, first: int, stop: int) -> None:
     """L^T x = y on blocks stop - 1 .. first: x_i = D_i^-T y_i, y_before -= P_i^T x_i."""
+    left, inverse, lead = blocks
     width = left.shape[2]
     y = np.empty(8)
     for block in range(stop - 1, first - 1, -1):
@@ -179,30 +199,35 @@ def _backward(left: Array, inverse: Array, lead: IntArray, x: Array, first: int,
 
 
 @compiled
-def _solve_near(
-    left: Array, inverse: Array, lead: IntArray, x: Array, first: int, last: int
-) -> None:
-    """Solve for a load on blocks first .. last - 1 only.
+def solve_near(blocks: Blocks, x: Array, first: int, last: int) -> tuple[int, int]:
+    """Solve for a load on blocks first .. last - 1 only; which blocks are touched.
 
     Nothing happens before the first loaded block on the way down, and both sweeps end where
     all that the next block sees has fallen 20 decades below the largest value: with the inertia
-    of a short time step a load is felt a metre or so away.
+    of a short time step a load is felt some metres away. Touched are blocks low .. high - 1, and
+    as many places of x below them as `left` is wide.
     """
-    n_blocks, _, width = left.shape
+    n_blocks, _, width = blocks.left.shape
     low, high = first, last
-    _forward(left, inverse, lead, x, first, last)
-    largest = np.abs(x).max()
-    while high < n_blocks and _above(x, high * 8, high * 8 + width, 1e-20 * largest):
-        _forward(left, inverse, lead, x, high, min(high + 8, n_blocks))
-        high = min(high + 8, n_blocks)
-    _backward(left, inverse, lead, x, first, high)
-    largest = np.abs(x).max()
-    while low > 0 and _above(x, low * 8, low * 8 + width, 1e-20 * largest):
-        _backward(left, inverse, lead, x, max(low - 8, 0), low)
-        low = max(low - 8, 0)
+    _forward(blocks, x, first, last)
+    largest = _largest(x, width + first * 8, width + last * 8)
+    while high < n_blocks and _largest(x, high * 8, high * 8 + width) > 1e-20 * largest:
+        stop = min(high + 8, n_blocks)
+        _forward(blocks, x, high, stop)
+        high = stop
+    _backward(blocks, x, first, high)
+    largest = _largest(x, first * 8, width + high * 8)
+    while low > 0 and _largest(x, low * 8, low * 8 + width) > 1e-20 * largest:
+        stop = max(low - 8, 0)
+        _backward(blocks, x, stop, low)
+        low = stop
+    return low, high
 
 
 @compiled
-def _above(x: Array, start: int, stop: int, bound: float) -> bool:
-    """Whether any of x[start:stop] is larger than the bound."""
-    return bool(np.abs(x[start:stop]).max() > bound)
+def _largest(x: Array, start: int, stop: int) -> float:
+    """Largest absolute value of x[start:stop]."""
+    found = 0.0
+    for k in range(start, stop):
+        found = max(found, abs(x[k]))
+    return found

@@ -17,21 +17,8 @@ def row_values(dofs: IntArray, weights: Array, u: Array) -> Array:
 
 
 @compiled
-def dense_rows(dofs: IntArray, weights: Array, n: int) -> Array:
-    """The rows written out, (m, n); equal dofs in a row add up."""
-    rows = np.zeros((dofs.shape[0], n))
+def add_rows(dofs: IntArray, weights: Array, factors: Array, total: Array) -> None:
+    """total (n,) += B^T factors, for m rows B; equal dofs in a row add up."""
     for i in range(dofs.shape[0]):
         for k in range(dofs.shape[1]):
-            rows[i, dofs[i, k]] += weights[i, k]
-    return rows
-
-
-@compiled
-def row_products(dofs: IntArray, weights: Array, vectors: Array) -> Array:
-    """Every row at every vector (p, n), as (m, p)."""
-    products = np.zeros((dofs.shape[0], vectors.shape[0]))
-    for i in range(dofs.shape[0]):
-        for j in range(vectors.shape[0]):
-            for k in range(dofs.shape[1]):
-                products[i, j] += weights[i, k] * vectors[j, dofs[i, k]]
-    return products
+            total[dofs[i, k]] += factors[i] * weights[i, k]

@@ -58,7 +58,7 @@ def bodies_at_rest(
     W += tread @ contact.wheel.flexibility @ tread.T
     W += PH @ under.beyond(near.compliance) @ PH.T
     # deflection of the centre line per unit nodal force; forces push the rail down
-    moved = near.displacement(stretch, stretch.centre_dofs) @ stretch.centre_map[0]
+    moved = near.displacement(stretch.centre_dofs) @ stretch.centre_map[0]
     return BodiesAtRest(points, W, PH @ moved + P @ stretch.centre_residual[0])
 
 
