@@ -29,7 +29,7 @@ class Carrying(pickle.Pickler):
         files = {
             name: (path.name, _content(path, path.stat().st_mtime_ns))
             for name, value in named.items()
-            if value and is_file(path := Path(value))
+            if value and isinstance(value, str) and is_file(path := Path(value))
         }
         return (_received, (type(obj), dict(vars(obj)), files)) if files else NotImplemented
 

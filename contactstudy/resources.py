@@ -1,4 +1,4 @@
-"""Files that come with the program: profiles and mesh recipes, studies, report template."""
+"""Files that come with the program: profiles, meshes, vehicles, studies, report template."""
 
 from pathlib import Path
 
@@ -8,6 +8,7 @@ _PACKAGE = Path(__file__).resolve().parent
 # name -> (inside an installed package, at the top of a source tree)
 _ROOTS = {
     "meshes": (_PACKAGE / "data" / "meshes", _PACKAGE.parent / "meshes"),
+    "vehicles": (_PACKAGE / "data" / "vehicles", _PACKAGE.parent / "vehicles"),
     "studies": (_PACKAGE / "data" / "studies", _PACKAGE.parent / "studies"),
     "report": (_PACKAGE / "data" / "report", _PACKAGE.parent / "reports" / "template"),
 }
@@ -16,8 +17,9 @@ _ROOTS = {
 def resource(kind: str, *parts: str) -> Path:
     """Path of a file or folder that is shipped with the program.
 
-    The kind is ``"meshes"``, ``"studies"`` or ``"report"``. It exists, in the installed package
-    or, for an editable install, the source tree; an ``InputError`` if there is none.
+    The kind is ``"meshes"``, ``"vehicles"``, ``"studies"`` or ``"report"``. It exists, in the
+    installed package or, for an editable install, the source tree; an ``InputError`` if there is
+    none.
     """
     if kind not in _ROOTS:
         raise InputError(f"resource '{kind}' is unknown; allowed: {', '.join(sorted(_ROOTS))}")

@@ -30,6 +30,8 @@ def keys() -> None:
         inner = {f"{group}.NAME": table for group, table in kind.inner_tables.items()}
         print(f"# {name.capitalize()}\n\n{kind.about}\n")
         print(key_reference({**kind.tables, **inner}, kind.study))
+        for title, tables in kind.file_tables.items():
+            print(f"# {title}\n\n{key_reference(tables)}")
     print(AXES, end="")
 
 

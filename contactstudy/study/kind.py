@@ -148,6 +148,8 @@ class Kind(ABC):
     tables: ClassVar[Mapping[str, Any]]
     #: The same for tables in tables: "runs" for ``[runs.NAME]``.
     inner_tables: ClassVar[Mapping[str, Any]] = {}
+    #: Title -> tables of further files that a study names, for the reference of keys.
+    file_tables: ClassVar[Mapping[str, Mapping[str, Any]]] = {}
     #: Table -> title of its parameters in the report, which shows no others.
     titles: ClassVar[Mapping[str, str]] = {}
 

@@ -32,6 +32,8 @@ class Parameter:
         Of a number, or of each number of a list; with the unit.
     variants
         The parameter is an object that a deciding key chooses.
+    needed
+        It has no default.
     """
 
     name: str
@@ -46,6 +48,7 @@ class Parameter:
     written: m.Written | None = None
     multiples: m.Multiples | None = None
     file: m.File | None = None
+    needed: bool = False
 
     @property
     def unit(self) -> str:
@@ -187,6 +190,7 @@ def _parameter(field: "dataclasses.Field[Any]", hint: Any) -> Parameter:
         written=found.get(m.Written, base.written),
         multiples=found.get(m.Multiples, base.multiples),
         file=found.get(m.File, base.file),
+        needed=field.default is field.default_factory is dataclasses.MISSING,
     )
 
 

@@ -4,6 +4,7 @@ import math
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 
@@ -46,10 +47,21 @@ class Key:
 class File:
     """The value is a file's name, relative to the study file that it stands in.
 
-    With `or_name` it may also be the name of something shipped, which has no suffix.
+    With `or_name` it may also be the name of something shipped, which has no suffix. In a list each
+    text names a file; `within` finds the name in a text with more, as its group "file".
     """
 
     or_name: bool = False
+    within: re.Pattern[str] | None = None
+
+    def relative_to(self, text: str, base: Path) -> str:
+        """The text with its file's name, relative to a folder, relative to here."""
+        match = self.within.fullmatch(text) if self.within else None
+        name = match["file"] if match else text
+        if not (Path(name).suffix if self.or_name else name):
+            return text
+        start, end = match.span("file") if match else (0, len(text))
+        return text[:start] + str(base / name) + text[end:]
 
 
 @dataclass(frozen=True)

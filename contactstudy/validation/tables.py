@@ -125,6 +125,11 @@ def _made(
     own = parameters(table)
     given = {p.name: data[p.key] for p in own if p.key in data and p.variants is None}
     wrong = check(table, given, naming(table, path))[1]
+    wrong += [
+        f"{path}.{p.key}: is missing; must be {p.limits.description()}"
+        for p in own
+        if p.key and p.needed and p.name not in given and p.name not in others
+    ]
     parts, problems, failed = {}, list(wrong), bool(wrong)
     for p in own:
         if p.variants is not None:
@@ -163,9 +168,11 @@ def resolve_paths(table: Table, data: Any, base: Path) -> None:
     `data` is changed in place; what is no table is left to the check of its values.
     """
     for key, entry in entries(table).items() if isinstance(data, dict) else ():
-        name, file = data.get(key), entry.parameter.file
-        if file and isinstance(name, str) and (Path(name).suffix if file.or_name else name):
-            data[key] = str(base / name)
+        named, file = data.get(key), entry.parameter.file
+        if file and isinstance(named, str):
+            data[key] = file.relative_to(named, base)
+        elif file and isinstance(named, list):
+            data[key] = [file.relative_to(n, base) if isinstance(n, str) else n for n in named]
 
 
 def resolved(table: Table, made: Parameters) -> dict[str, Any]:

@@ -8,7 +8,7 @@ from typing import Annotated
 
 import numpy as np
 
-from contactstudy.validation import Parameters, Same, Variants
+from contactstudy.validation import Parameters, Same
 from contactstudy.validation import quantities as q
 from contactstudy.vehicle.model import Vehicle
 
@@ -76,11 +76,6 @@ class BareWheel(Parameters):
             static_loads=np.array([self.static_load]),
             dof_names=("wheel",),
         )
-
-
-VEHICLES = Variants(
-    "type", {"wheel_column": WheelColumn, "bare_wheel": BareWheel}, "model of the vehicle"
-)
 
 
 def wheel_column(**values: float) -> Vehicle:

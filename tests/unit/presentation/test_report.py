@@ -96,7 +96,7 @@ def test_content_has_every_part(made):
     assert captions == [
         "Irregularity.",
         "Track (per rail).",
-        "Vehicle (per wheel).",
+        "Vehicle.",
         "Journey.",
         "Solid rail and wheel.",
     ]

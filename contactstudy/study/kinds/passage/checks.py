@@ -12,14 +12,14 @@ from contactstudy.irregularity.depth_map import DepthMap
 from contactstudy.irregularity.flats import LocalDefect
 from contactstudy.profiles.wheel_file import wheel_dimensions, wheel_sections
 from contactstudy.solvers.journey import Journey
-from contactstudy.study.kinds.passage.runs import PointRun, Run
+from contactstudy.study.kinds.passage.runs import PointRun, Run, SurfaceRun
 from contactstudy.study.kinds.passage.scan import ScanFiles
 from contactstudy.study.kinds.passage.solid import Solid
 from contactstudy.study.kinds.passage.wheelset import WheelsetPosition, problems_of
 from contactstudy.track.model import Track
 from contactstudy.validation import complaint, parameters
 from contactstudy.validation.base import naming
-from contactstudy.vehicle import BareWheel, WheelColumn
+from contactstudy.vehicle import Vehicle, VehicleTable
 
 _SLACK = 1e-9  # relative, for lengths that were given in decimal
 
@@ -30,18 +30,26 @@ def combined(tables: Mapping[str, Any], runs: Mapping[str, Run]) -> list[str]:
     irregularity: Irregularity | None = tables.get("irregularity")
     track: Track | None = tables.get("track")
     journey: Journey | None = tables.get("journey")
-    vehicle: WheelColumn | BareWheel | None = tables.get("vehicle")
+    vehicle: VehicleTable | None = tables.get("vehicle")
     solid: Solid | None = tables.get("solid")
     wheelset: WheelsetPosition | None = tables.get("wheelset")
     scan: ScanFiles | None = tables.get("scan")
     if journey is not None and journey.start >= journey.end:
         journey = None  # its own complaint is enough
+    made = None
+    try:
+        made = None if vehicle is None else vehicle.vehicle()
+    except InputError:
+        vehicle = None  # complained about
+    if made is not None and runs:
+        problems += _wheels(made, irregularity, runs)
     if journey is not None:
         for name, run in runs.items():
             if run.time_step is not None:
                 problems += journey.problems_of_step(f"runs.{name}.time_step", run.time_step)
         if track is not None:
-            problems += journey.problems_on(track, key=naming(Journey, "journey"))
+            of_runs = made if runs else None
+            problems += journey.problems_on(track, of_runs, naming(Journey, "journey"))
         if irregularity is not None and runs and vehicle is not None:
             problems += _defects(irregularity, journey, vehicle.wheel_radius)
             problems += _short_waves(irregularity, journey, runs)
@@ -64,6 +72,24 @@ def combined(tables: Mapping[str, Any], runs: Mapping[str, Run]) -> list[str]:
         problems += _mirrored(irregularity)
     if journey is not None and meshed:
         problems += _solid_on_journey(solid, journey)
+    return problems
+
+
+def _wheels(
+    vehicle: Vehicle, irregularity: Irregularity | None, runs: Mapping[str, Run]
+) -> list[str]:
+    """Runs and defects that need one wheel, beside a vehicle with more; a second rail."""
+    problems = vehicle.problems_on_one_rail()
+    if vehicle.n_wheels == 1:
+        return problems
+    needs = f"needs a vehicle with one wheel (here {vehicle.n_wheels})"
+    for name, run in runs.items():
+        if isinstance(run, SurfaceRun):
+            problems.append(complaint(f"runs.{name}.solver", "surface", needs))
+        elif isinstance(run, PointRun) and run.wheel == "modal":
+            problems.append(complaint(f"runs.{name}.wheel", "modal", needs))
+    if irregularity is not None and irregularity.wheel_defect is not None:
+        problems.append(f"irregularity.wheel_defect: {needs}, for it would be on all of them")
     return problems
 
 
@@ -149,7 +175,7 @@ def _wheelset(
     solid: Solid,
     wheelset: WheelsetPosition,
     track: Track | None,
-    vehicle: WheelColumn | BareWheel | None,
+    vehicle: VehicleTable | None,
 ) -> list[str]:
     if solid.half:
         return [

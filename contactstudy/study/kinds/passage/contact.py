@@ -11,6 +11,7 @@ from contactstudy.contact.laws import (
     ContactLaw,
     HertzSpring,
     LinearSpring,
+    MovingForce,
     PressSpring,
     RigidContact,
 )
@@ -115,6 +116,8 @@ def hertz(study: Study) -> HertzContact:
 def contact_law(study: Study, run: str) -> ContactLaw | PatchLaw:
     """The contact law of a point run."""
     table, load = _point(study, run), study.vehicle.static_load
+    if table.law == "moving_force":
+        return MovingForce()
     if table.contact_filter == "bedding":
         approach = HertzSpring(_hertz_constant(study, run)).approach_at(load)
         return WinklerBedding(hertz(study).semi_axis_x, approach, load)

@@ -18,6 +18,8 @@ from contactstudy.study.kinds.passage.scan import PATHS as SCAN_PATHS
 from contactstudy.study.kinds.passage.schema import IRREGULARITY, Study
 from contactstudy.study.kinds.passage.twins import twins, untwinned
 from contactstudy.study.kinds.passage.wheelset import PATHS as WHEELSET_PATHS
+from contactstudy.vehicle import Bogie, Train
+from contactstudy.vehicle.consist import car_file
 
 #: Steps of a beam that take about as long as a process takes to start.
 LIGHT = 20_000
@@ -44,6 +46,7 @@ def read_inputs(study: Study) -> Inputs:
     files = dict(described.files)
     if "wheelset" in config:
         contact_zone(study)  # refused before anything is computed
+    _cars(config.get("vehicle", {}), files)
     section = study.solid.wheel_section
     if digest := named_file_digest(section):
         files[Path(section).name] = digest
@@ -66,6 +69,22 @@ def read_inputs(study: Study) -> Inputs:
         seed=config["irregularity"].get("seed"),
         mesh=lambda: asdict(recipe(study)) if meshed else None,
     )
+
+
+def _cars(vehicle: dict[str, Any], files: dict[str, str]) -> None:
+    """Enter the files of cars."""
+    for key in ("cars", "car"):
+        texts = vehicle.get(key, [])
+        for text in [texts] if isinstance(texts, str) else texts:
+            path = car_file(text)
+            if digest := named_file_digest(path):
+                files[Path(path).name] = digest
+                shown = text.replace(path, Path(path).name)
+                vehicle[key] = (
+                    shown
+                    if isinstance(texts, str)
+                    else [shown if old == text else old for old in vehicle[key]]
+                )
 
 
 def _scans(study: Study, config: dict[str, Any], files: dict[str, str]) -> tuple[str, ...]:
@@ -105,6 +124,7 @@ def _batch(study: Study, inputs: Inputs, run: str) -> str:
     """Hash of what runs share that are stepped together: the matrices, and how far they go."""
     table = study.resolved_run(run)
     shared = [inputs.config[key] for key in ("track", "vehicle")]
+    shared += study.vehicle.data if isinstance(study.vehicle, Train | Bogie) else []
     stepping = [table.get(key) for key in _STEPPING]
     return digest([shared, study.solid.mesh_size, stepping, journey(study, run).n_steps])
 
@@ -119,6 +139,8 @@ def _run_inputs(study: Study, inputs: Inputs, run: str) -> list[Any]:
     # Beams take their section from the solid's mesh, so its size matters to them as well.
     solid = study.solid.resolved() | {"wheel_section": Path(study.solid.wheel_section).name}
     shared["solid"] = solid if study.meshes_rail(run) else solid["mesh_size"]
+    if isinstance(study.vehicle, Train | Bogie):
+        shared["cars"] = study.vehicle.data
     # with modes in another run the wheel is meshed more finely round its circumference
     shared["modes"] = study.meshes_wheel(run) and study.has_wheel_modes
     return [own, shared]

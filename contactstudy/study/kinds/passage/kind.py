@@ -7,6 +7,7 @@ from typing import ClassVar
 from contactstudy.study.kind import Kind, Quantity, later
 from contactstudy.study.kinds.passage.runs import SOLVERS
 from contactstudy.study.kinds.passage.schema import SECTIONS, Study
+from contactstudy.vehicle import Car
 
 _HERE = "contactstudy.study.kinds.passage"
 _FORCE, _NAME = "contact_force", "contact force"
@@ -38,10 +39,11 @@ class PassageKind(Kind):
     study = Study
     tables = SECTIONS
     inner_tables: ClassVar = {"runs": SOLVERS}
+    file_tables: ClassVar = {"Vehicle files": {"car": Car}}
     titles: ClassVar = {
         "irregularity": "Irregularity",
         "track": "Track (per rail)",
-        "vehicle": "Vehicle (per wheel)",
+        "vehicle": "Vehicle",
         "journey": "Journey",
         "solid": "Solid rail and wheel",
         "wheelset": "Wheelset",

@@ -31,7 +31,8 @@ class PointRun(Run):
     ``k_r`` is a number, "tangent" or "secant" (of the static press of the very wheel and rail that
     are meshed, at the static load), "hertz_tangent" or "hertz_secant" (of Hertz's closed form), a
     multiple of these, or "rigid". With ``hertz_constant = "press"`` Hertz's law has the press's
-    tangent at the static load; ``law = "press"`` is the press itself.
+    tangent at the static load; ``law = "press"`` is the press itself. With ``law = "moving_force"``
+    each wheel presses with its static load, whatever it and the rail do.
 
     ``contact_filter`` says what the contact makes of the irregularity, see
     `contactstudy.contact.filters` and `contactstudy.contact.patch_laws`.
@@ -52,7 +53,8 @@ class PointRun(Run):
         bool, _BEAM, "static give under the wheel over a bay as that of the meshed rail"
     ] = False
     law: Annotated[
-        Literal["linear", "hertz", "press"], "contact law; the press is that of the meshed bodies"
+        Literal["linear", "hertz", "press", "moving_force"],
+        "contact law; the press is that of the meshed bodies, a moving force the static load",
     ] = "linear"
     k_r: Annotated[
         float | Literal["tangent", "secant", "hertz_tangent", "hertz_secant", "rigid"], Unit("N/m"),
@@ -152,6 +154,11 @@ class PointRun(Run):
             for where, holds in vertical.items()
             if holds and self.direction == "Y"
         ]
+        if self.law == "moving_force" and self.contact_filter != "none":
+            allowed = 'must be "none" with law = "moving_force", which does not feel the rail'
+            problems.append(complaint(key("contact_filter"), self.contact_filter, allowed))
+        if self.law == "moving_force" and self.wheel == "modal":
+            problems.append(complaint(key("wheel"), "modal", 'applies not with "moving_force"'))
         if self.contact_filter == "bedding" and self.law != "hertz":
             allowed = 'must be "hertz" with contact_filter = "bedding", which spreads Hertz\'s law'
             problems.append(complaint(key("law"), self.law, allowed))

@@ -27,7 +27,7 @@ from contactstudy.validation import (
     units,
 )
 from contactstudy.validation.base import wrong_type
-from contactstudy.vehicle import VEHICLES, BareWheel, WheelColumn
+from contactstudy.vehicle import VEHICLES, VehicleTable, WheelColumn
 
 SECTIONS: dict[str, Table] = {
     "irregularity": Irregularity,
@@ -55,7 +55,7 @@ class Study(study.Study):
 
     irregularity: Irregularity = field(default_factory=Irregularity)
     track: Track = field(default_factory=Track)
-    vehicle: WheelColumn | BareWheel = field(default_factory=WheelColumn)
+    vehicle: VehicleTable = field(default_factory=WheelColumn)
     journey: Journey = field(default_factory=Journey)
     solid: Solid = field(default_factory=Solid)
     wheelset: WheelsetPosition = field(default_factory=WheelsetPosition)

@@ -44,6 +44,8 @@ def _law(run: Mapping[str, Any], attrs: Mapping[str, Any]) -> str:
         return "point, Winkler bedding"
     if run.get("law") == "press":
         return "point, press"
+    if run.get("law") == "moving_force":
+        return "moving force"
     if run.get("law") == "hertz":
         return "point, Hertz" + _value(attrs.get("k_H"), "N/m^(3/2)", f"{K_H} = ")
     k_r = run.get("k_r")

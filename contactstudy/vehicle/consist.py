@@ -1,0 +1,183 @@
+"""Trains of cars, and single bogies, by the names or files of their cars."""
+
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Annotated, Any
+
+from contactstudy.exceptions import InputError
+from contactstudy.validation import File, Naming, Parameters, Unit, Written, as_list, complaint
+from contactstudy.vehicle.car import Car
+from contactstudy.vehicle.model import Vehicle, train
+from contactstudy.vehicle.suspended import CarModel, bogie_vehicle, car_vehicle, wheelset_positions
+from contactstudy.vehicle.vehicle_file import read_car
+
+_ENTRY = re.compile(r"(?:(?P<count>[1-9][0-9]{0,2}) x )?(?P<file>.+?)(?P<reversed> reversed)?")
+_TOLERANCE = 1e-9  # m, of ends that touch
+
+
+def _listed(value: Any, unit: str) -> Any:
+    return value if as_list(value) is not None else [value]
+
+
+@dataclass(frozen=True)
+class Train(Parameters):
+    """Cars behind each other, front to rear; they are coupled by the track only.
+
+    Each is a shipped car or a file like those of ``vehicles/``, perhaps several, perhaps the other
+    way round: ``["s300_end", "10 x s300", "s300_end reversed"]``. In the plane it is the half over
+    one rail; in three dimensions it runs on two rails.
+    """
+
+    cars: Annotated[
+        tuple[str, ...], File(True, _ENTRY),
+        "shipped cars or TOML files from front to rear, also as \"10 x NAME\", \"NAME reversed\"",
+    ] = ("s300_end", "10 x s300", "s300_end reversed")  # fmt: skip
+    model: Annotated[CarModel, "heave and pitch; or lateral motion, roll and yaw as well"] = (
+        "planar"
+    )
+    gaps: Annotated[
+        tuple[float, ...], Unit("m"), Written(_listed, "a list of them"),
+        "between the ends of neighbouring cars, one for all or one each; lengths are over couplers",
+    ] = (0.0,)  # fmt: skip
+
+    def problems(self, key: Naming) -> Iterable[str]:
+        """Cars that there are not or that overlap, gaps that do not fit, missing lateral data."""
+        if not self.cars:
+            yield f"{key('cars')}: must name at least one car"
+            return
+        cars = dict[str, Car]()
+        for k, text in enumerate(self.cars):
+            try:
+                cars[text] = _read(text)[0]
+            except InputError as error:
+                yield from (f"{key('cars')}.{k}: {problem}" for problem in error.problems)
+        if len(cars) < len(set(self.cars)):
+            return
+        n = len(self.consist)
+        if len(self.gaps) not in (1, n - 1):
+            has = f"{key('gaps')}: has {len(self.gaps)} values"
+            yield f"{has}; must have 1, or {n - 1} for {n} cars"
+        for k, gap in enumerate(self.gaps):
+            if gap < -_TOLERANCE:
+                which = "neighbouring cars" if len(self.gaps) == 1 else f"cars {k + 1} and {k + 2}"
+                yield complaint(f"{key('gaps')}.{k}", gap, f"{which} overlap by {-gap:g} m")
+        if self.model == "three_dimensional":
+            for text, car in cars.items():
+                if car.missing:
+                    yield complaint(
+                        key("model"),
+                        self.model,
+                        f"car {text} lacks lateral data: {', '.join(car.missing)}",
+                    )
+
+    @cached_property
+    def consist(self) -> tuple[tuple[Car, bool], ...]:
+        """Each car and whether it is reversed, front to rear."""
+        return tuple(one for text in self.cars for one in _read(text)[1])
+
+    @property
+    def data(self) -> list[Any]:
+        """What the files of the cars say, as plain data."""
+        return [car.resolved() for car in dict.fromkeys(car for car, _ in self.consist)]
+
+    @property
+    def length(self) -> float:
+        """Over the couplers [m]."""
+        return sum(car.length for car, _ in self.consist) + sum(self._gaps)
+
+    @property
+    def leading(self) -> Car:
+        """The first car."""
+        return self.consist[0][0]
+
+    @property
+    def static_load(self) -> float:
+        """Of a wheel of the first car [N]."""
+        return 0.5 * self.leading.static_axle_load
+
+    @property
+    def wheel_radius(self) -> float:
+        """Of the first car [m]."""
+        return self.leading.wheel_radius
+
+    @property
+    def wheel_mass(self) -> float:
+        """Half of a wheelset of the first car [kg]."""
+        return 0.5 * self.leading.wheelset_mass
+
+    @property
+    def _gaps(self) -> list[float]:
+        n = len(self.consist) - 1
+        return list(self.gaps) if len(self.gaps) == n else [self.gaps[0]] * n
+
+    def vehicle(self, rails: int | None = None) -> Vehicle:
+        """The whole train on one rail or two, by default as many as its model has."""
+        rails = rails or (2 if self.model == "three_dimensional" else 1)
+        made = {car: car_vehicle(car, self.model, rails) for car, _ in self.consist}
+        wheels, end = list[float](), 0.0  # X of the leading wheelset, and of the car's front end
+        for (car, reverse), gap in zip(self.consist, [0.0, *self._gaps], strict=False):
+            end -= gap
+            offset = -car.pivot_offset if reverse else car.pivot_offset
+            wheels.append(end - 0.5 * car.length + offset + max(wheelset_positions(car)))
+            end -= car.length
+        return train([made[car] for car, _ in self.consist], [x - wheels[0] for x in wheels])
+
+
+@dataclass(frozen=True)
+class Bogie(Parameters):
+    """One bogie of a car over one rail, with its half of the car body on top."""
+
+    car: Annotated[str, File(True), "shipped car, or a TOML file with one"] = "s300"
+
+    def problems(self, key: Naming) -> Iterable[str]:
+        """A car that there is not."""
+        try:
+            read_car(self.car)
+        except InputError as error:
+            yield from (f"{key('car')}: {problem}" for problem in error.problems)
+
+    @cached_property
+    def read(self) -> Car:
+        """The car."""
+        return read_car(self.car)
+
+    @property
+    def data(self) -> list[Any]:
+        """What the file of the car says, as plain data."""
+        return [self.read.resolved()]
+
+    @property
+    def static_load(self) -> float:
+        """Of a wheel [N]."""
+        return 0.5 * self.read.static_axle_load
+
+    @property
+    def wheel_radius(self) -> float:
+        """Of the car [m]."""
+        return self.read.wheel_radius
+
+    @property
+    def wheel_mass(self) -> float:
+        """Half of a wheelset [kg]."""
+        return 0.5 * self.read.wheelset_mass
+
+    def vehicle(self) -> Vehicle:
+        """Dofs car body z, bogie z and pitch, two wheelsets z."""
+        return bogie_vehicle(self.read)
+
+
+def car_file(text: str) -> str:
+    """The name or file in an entry such as "10 x NAME"."""
+    match = _ENTRY.fullmatch(text)
+    return match["file"] if match else text
+
+
+def _read(text: str) -> tuple[Car, list[tuple[Car, bool]]]:
+    """The car of an entry; as many of it as the entry says."""
+    match = _ENTRY.fullmatch(text)
+    if match is None:
+        raise InputError(f'"{text}" names no car')
+    car = read_car(match["file"])
+    return car, [(car, match["reversed"] is not None)] * int(match["count"] or 1)
