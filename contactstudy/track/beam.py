@@ -13,7 +13,7 @@ from contactstudy.track.hermite import BeamElement
 from contactstudy.track.inner_dofs import InnerDofs, pad_parts
 from contactstudy.track.model import Direction, Track, WinklerFoundation
 from contactstudy.track.supports import PadRow, SupportedRail, add_supports, chain_of
-from contactstudy.validation import AtLeast, Parameters
+from contactstudy.validation import AtLeast, Naming, Parameters
 
 RailTheory = Literal["euler", "timoshenko"]
 
@@ -38,6 +38,12 @@ class BeamTrack(AssembledTrack, Parameters):
     )
     direction: Annotated[Direction, "vertical or lateral"] = "Z"
     _top_load: Callable[[Array], Array] | None = field(default=None, repr=False, compare=False)
+
+    def problems(self, key: Naming) -> list[str]:
+        """A track on a bridge, which `track.structure` discretises."""
+        if self.track.structure is None:
+            return []
+        return [f"{key('track')}: stands on a bridge, which one rail alone cannot; StructureTrack"]
 
     @property
     def n_elements(self) -> int:

@@ -11,6 +11,7 @@ from typing import Annotated, Literal
 import numpy as np
 
 from contactstudy.arrays import Array
+from contactstudy.track.bridge import Bridge
 from contactstudy.track.rail import Direction, GivenRail, Rail
 from contactstudy.validation import (
     Above,
@@ -127,10 +128,10 @@ Support = DiscreteSupports | WinklerFoundation | None
 
 @dataclass(frozen=True)
 class Track(Parameters):
-    """One rail on its supports, from X = 0 to X = length.
+    """One rail on its supports, from X = 0 to X = length, or both rails on a bridge.
 
-    The length is a whole number of spacings of discrete supports. Without support nothing but the
-    ends carries the rail (a beam).
+    The length is a whole number of spacings of discrete supports; with a bridge, it is that of the
+    bridge and its approaches. Without support nothing but the ends carries the rail (a beam).
     """
 
     rail: Annotated[
@@ -146,9 +147,25 @@ class Track(Parameters):
     ] = field(default_factory=DiscreteSupports)
     length: Annotated[q.Length, "length of the track"] = 36.0
     ends: Annotated[Ends, "both ends of the rail"] = "clamped"
+    structure: Annotated[
+        Bridge | None,
+        Variants(
+            "structure",
+            {"ground": None, "bridge": Bridge},
+            "what the supports of the rails stand on",
+        ),
+    ] = None
+
+    def __post_init__(self) -> None:
+        """The length of a track on a bridge is the bridge's."""
+        super().__post_init__()
+        if self.structure is not None:
+            object.__setattr__(self, "length", self.structure.length)
 
     def problems(self, key: Naming) -> list[str]:
         """Supports that do not fit the length, or do not hold the rail."""
+        if self.structure is not None:
+            return self._on_bridge(self.structure, key)
         if self.support is None and self.ends == "free":
             return [complaint(key("ends"), "free", "nothing holds a rail without support")]
         if isinstance(self.support, DiscreteSupports):
@@ -157,6 +174,21 @@ class Track(Parameters):
                 allowed = f"must be a whole number of support spacings of {spacing:g} m (m)"
                 return [complaint(key("length"), self.length, allowed)]
         return []
+
+    def _on_bridge(self, bridge: Bridge, key: Naming) -> list[str]:
+        problems = []
+        if not isinstance(self.support, DiscreteSupports):
+            problems.append(f"{key('support')}: must be discrete supports on a bridge")
+        elif (shortest := min((*bridge.spans, np.inf))) < 2.0 * self.support.spacing:
+            allowed = f"must be at least two support spacings, {2.0 * self.support.spacing:g} m"
+            problems.append(complaint(key("spans"), shortest, allowed))
+        if self.ends != "clamped":
+            allowed = 'must be "clamped" on a bridge, whose approaches carry the rails\' ends'
+            problems.append(complaint(key("ends"), self.ends, allowed))
+        if self.given("length") and abs(self.length - bridge.length) > 1e-6:
+            allowed = f"is that of the bridge and its approaches, {bridge.length:g} m; leave it out"
+            problems.append(complaint(key("length"), self.length, allowed))
+        return problems
 
     @property
     def n_bays(self) -> int:

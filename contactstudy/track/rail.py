@@ -66,6 +66,13 @@ class Rail(Parameters):
         kappa = section.shear_coefficient_z if direction == "Z" else section.shear_coefficient_y
         return kappa * self.shear_modulus * section.area
 
+    @property
+    def torsion_stiffness(self) -> float:
+        """GJ [N m^2], with Saint-Venant's J = A^4 / (40 I_p) of a solid section [m^4]."""
+        section = self.section
+        polar = section.second_moment_y + section.second_moment_z
+        return self.shear_modulus * section.area**4 / (40.0 * polar)
+
     def rotary_inertia(self, direction: Direction = "Z") -> float:
         """Rho I [kg m], mass moment of inertia per length for a deflection in that direction."""
         return self.density * self._second_moment(direction)

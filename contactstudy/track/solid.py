@@ -65,6 +65,8 @@ class SolidTrack(AssembledMesh):
 
     def __post_init__(self) -> None:
         recipe, rail, problems = self.recipe, self.track.rail, []
+        if self.track.structure is not None:
+            problems.append("SolidTrack.track: stands on a bridge, whose rails are beams")
         discrete = isinstance(self.track.support, DiscreteSupports)
         what, length = ("bay", self.track.bay_length) if discrete else ("track", self.track.length)
         ratio = length / recipe.length

@@ -1,0 +1,260 @@
+"""What a track on a bridge stands on: decks, bearings, piers, and the ground before and behind."""
+
+from __future__ import annotations
+
+import itertools
+import re
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Annotated, Any
+
+import numpy as np
+
+from contactstudy.arrays import Array, IntArray
+from contactstudy.track.deck import Antoing, Box32m, DeckSection, GivenDeck, rayleigh
+from contactstudy.validation import (
+    Above,
+    AtLeast,
+    Key,
+    Naming,
+    Parameters,
+    Unit,
+    Variants,
+    Written,
+    as_list,
+    complaint,
+)
+from contactstudy.validation import quantities as q
+
+_Rocking = Annotated[float, Unit("N*m/rad"), Above(0)]
+_RockingDamping = Annotated[float, Unit("N*m*s/rad"), AtLeast(0)]
+_REPEATED = re.compile(r"\s*(\d{1,4})\s*x\s*(.+)")
+
+
+def _spans(value: Any, unit: str) -> Any:
+    """Lengths of spans from "10 x 32 m", or from a list of such texts and lengths."""
+    found = list[Any]()
+    given = as_list(value)
+    for one in [value] if given is None else given:
+        match = _REPEATED.fullmatch(one) if isinstance(one, str) else None
+        found += [match[2]] * int(match[1]) if match else [one]
+    return found
+
+
+@dataclass(frozen=True)
+class Pier(Parameters):
+    """A column under each inner support, on springs and dashpots of its foundation.
+
+    Defaults are an assumption: a solid concrete pier of 10 m on piles.
+    """
+
+    height: Annotated[q.Length, Key("pier_height"), "height of a pier"] = 10.0
+    youngs_modulus: Annotated[q.Modulus, Key("pier_youngs_modulus"), "of a pier"] = 31.5e9
+    area: Annotated[float, Unit("m^2"), Above(0), Key("pier_area"), "area of a pier's section"] = (
+        12.0
+    )
+    second_moment: Annotated[
+        float,
+        Unit("m^4"),
+        Above(0),
+        Key("pier_second_moment"),
+        "of a pier, bending along the track",
+    ] = 5.0
+    lateral_second_moment: Annotated[
+        float, Unit("m^4"), Above(0), Key("pier_lateral_second_moment"),
+        "of a pier, bending across the track",
+    ] = 30.0  # fmt: skip
+    torsion_constant: Annotated[
+        float, Unit("m^4"), Above(0), Key("pier_torsion_constant"), "of a pier"
+    ] = 15.0
+    density: Annotated[q.Density, Key("pier_density"), "of a pier"] = 2500.0
+    cap_mass: Annotated[q.MassOrZero, "at the top of a pier"] = 50e3
+    footing_mass: Annotated[q.MassOrZero, "at the foot of a pier"] = 200e3
+    vertical_stiffness: Annotated[
+        q.Stiffness, Key("foundation_vertical_stiffness"), "of a pier's foundation"
+    ] = 5e9
+    vertical_damping: Annotated[
+        q.Damping, Key("foundation_vertical_damping"), "of a pier's foundation"
+    ] = 10e6
+    horizontal_stiffness: Annotated[
+        q.Stiffness, Key("foundation_horizontal_stiffness"), "of a pier's foundation"
+    ] = 2e9
+    horizontal_damping: Annotated[
+        q.Damping, Key("foundation_horizontal_damping"), "of a pier's foundation"
+    ] = 5e6
+    rocking_stiffness: Annotated[
+        _Rocking, Key("foundation_rocking_stiffness"), "of a pier's foundation"
+    ] = 50e9
+    rocking_damping: Annotated[
+        _RockingDamping, Key("foundation_rocking_damping"), "of a pier's foundation"
+    ] = 100e6
+
+
+@dataclass(frozen=True)
+class Bridge(Parameters):
+    """Decks in a row with their ends at abutments and piers, between two approaches on the ground.
+
+    A track's supports stand on it as on the ground: their layer, sleepers on ballast or a slab, is
+    the same on the approaches. A deck is a beam; its axis, at Y = 0, runs through its centroids.
+    The track lies beside it (`track_offset`) and above it (`track_height`). Two bearings stand
+    below each support of a deck. They hold it up and laterally, along the track at its first
+    support only. Each span is measured between its bearings.
+
+    Wheels come from rigid ground: over the entry length their load passes smoothly to the
+    track, and leaves it so at the other end.
+    """
+
+    spans: Annotated[
+        tuple[float, ...], Unit("m"), Above(0), Written(_spans, 'text like "10 x 32 m"'),
+        "lengths of all spans",
+    ] = (32.0,) * 10  # fmt: skip
+    spans_per_deck: Annotated[
+        tuple[int, ...], AtLeast(1),
+        "of each deck how many spans it runs over; one number for all, 1 is simply supported",
+    ] = (1,)  # fmt: skip
+    deck: Annotated[
+        DeckSection,
+        Variants("deck", {"box_32m": Box32m, "antoing": Antoing, "given": GivenDeck}, "section"),
+    ] = field(default_factory=Box32m)
+    damping_frequencies: Annotated[
+        tuple[float, float] | None, Unit("Hz"), Above(0),
+        "where the deck has its damping ratio; first and second bending of the longest span if "
+        "left out",
+    ] = None  # fmt: skip
+    approach_before: Annotated[q.Length, "track on the ground before the bridge"] = 50.0
+    approach_behind: Annotated[q.Length, "track on the ground behind the bridge"] = 50.0
+    ground_stiffness: Annotated[
+        float | None, Unit("N/m"), Above(0),
+        "below the layer of the approaches, a rail seat; rigid if left out",
+    ] = None  # fmt: skip
+    entry_length: Annotated[q.Length, "over which wheels come onto the track and leave it"] = 10.0
+    track_offset: Annotated[q.Position, "track's centre to the left of the deck's axis"] = 2.5
+    track_height: Annotated[q.Position, "rails' feet above the deck's centroid"] = 1.5
+    rail_distance: Annotated[q.Length, "between the two rails' axes"] = 1.5
+    bearing_distance: Annotated[q.Length, "between the two bearings of a support"] = 4.5
+    bearing_depth: Annotated[q.Position, "bearings below the deck's centroid"] = 2.0
+    bearing_stiffness: Annotated[q.Stiffness, "of a bearing, vertical"] = 10e9
+    bearing_damping: Annotated[q.Damping, "of a bearing, vertical"] = 0.0
+    lateral_bearing_stiffness: Annotated[
+        q.Stiffness, "of a bearing, across the track; along it that of the one support that holds"
+    ] = 2e9
+    piers: Annotated[
+        Pier | None,
+        Variants("piers", {"rigid": None, "column": Pier}, "what inner supports stand on"),
+    ] = None
+
+    def problems(self, key: Naming) -> list[str]:
+        """Decks that do not share out the spans, entries longer than an approach."""
+        problems = []
+        n, given = len(self.spans), self.spans_per_deck
+        if not self.spans:
+            problems.append(complaint(key("spans"), [], "must be one length at least (m)"))
+        elif (len(given) == 1 and n % given[0]) or (len(given) != 1 and sum(given) != n):
+            allowed = f"must add up to the {n} spans, or be one number that divides {n}"
+            problems.append(complaint(key("spans_per_deck"), list(given), allowed))
+        for name in ("approach_before", "approach_behind"):
+            if getattr(self, name) < self.entry_length:
+                allowed = f"must be at least the entry length, {self.entry_length:g} m"
+                problems.append(complaint(key(name), getattr(self, name), allowed))
+        pair = self.damping_frequencies
+        if pair is not None and not pair[0] < pair[1]:
+            problems.append(complaint(key("damping_frequencies"), list(pair), "must increase (Hz)"))
+        return problems
+
+    @property
+    def length(self) -> float:
+        """Of the whole track [m]."""
+        return self.approach_before + sum(self.spans) + self.approach_behind
+
+    @cached_property
+    def supports(self) -> Array:
+        """X of abutments and piers, (n_spans + 1,) m."""
+        return self.approach_before + np.concatenate([[0.0], np.cumsum(self.spans)])
+
+    @cached_property
+    def decks(self) -> tuple[Array, ...]:
+        """X of the supports of each deck [m]."""
+        counts = self.spans_per_deck
+        if len(counts) == 1:
+            counts = counts * (len(self.spans) // counts[0])
+        ends = np.concatenate([[0], np.cumsum(counts)])
+        return tuple(self.supports[a : b + 1] for a, b in itertools.pairwise(ends))
+
+    @property
+    def rayleigh(self) -> tuple[float, float]:
+        """Coefficients a [1/s] and b [s] of the deck's damping a M + b K."""
+        first = self.deck.frequency(max(self.spans))
+        pair = self.damping_frequencies or (first, 4.0 * first)
+        return rayleigh(self.deck.damping_ratio, *pair)
+
+    @property
+    def lateral_of_rails(self) -> tuple[float, float]:
+        """Y of the right and of the left rail, seen along +X [m]."""
+        half = 0.5 * self.rail_distance
+        return self.track_offset - half, self.track_offset + half
+
+
+GROUND = -1
+"""In place of a deck: the approaches."""
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """Supports of the track on one deck or approach.
+
+    Bays of equal length fit each span and each approach, as near to the spacing as they can be;
+    a support stands in the middle of its bay.
+
+    Attributes
+    ----------
+    start, end : float
+        X [m].
+    seats : ndarray
+        (n,) X of the supports [m].
+    bays : ndarray
+        (n,) lengths of their bays [m].
+    deck : int
+        Number of the deck, or `GROUND`.
+    """
+
+    start: float
+    end: float
+    seats: Array
+    bays: Array
+    deck: int
+
+
+def stretches(bridge: Bridge, spacing: float) -> tuple[Stretch, ...]:
+    """Approaches and decks in their order along the track, supports about `spacing` [m] apart."""
+    before, behind = bridge.supports[0], bridge.supports[-1]
+    parts: list[tuple[Array, int]] = [(np.array([0.0, before]), GROUND)]
+    parts += [(supports, number) for number, supports in enumerate(bridge.decks)]
+    parts.append((np.array([behind, bridge.length]), GROUND))
+    return tuple(_stretch(ends, deck, spacing) for ends, deck in parts)
+
+
+def _stretch(ends: Array, deck: int, spacing: float) -> Stretch:
+    seats, bays = list[Array](), list[Array]()
+    for start, end in itertools.pairwise(ends):
+        n = max(1, round((end - start) / spacing))
+        bay = (end - start) / n
+        seats.append(start + bay * (np.arange(n) + 0.5))
+        bays.append(np.full(n, bay))
+    return Stretch(
+        float(ends[0]), float(ends[-1]), np.concatenate(seats), np.concatenate(bays), deck
+    )
+
+
+def nodes_of_rail(parts: tuple[Stretch, ...], per_bay: int) -> Array:
+    """X of the rail's nodes [m]: at both ends and all seats, `per_bay` elements between seats."""
+    seats = np.concatenate([part.seats for part in parts])
+    inner = [np.linspace(a, b, per_bay + 1)[:-1] for a, b in itertools.pairwise(seats)]
+    half = -(-per_bay // 2)
+    first = np.linspace(parts[0].start, seats[0], half + 1)[:-1]
+    last = np.linspace(seats[-1], parts[-1].end, half + 1)
+    return np.concatenate([first, *inner, last])
+
+
+def of_support(x: Array, supports: Array) -> IntArray:
+    """Number in `supports` of each of positions x that is one."""
+    return np.array([int(np.argmin(np.abs(supports - one))) for one in x], dtype=np.int64)
