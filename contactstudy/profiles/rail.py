@@ -14,7 +14,7 @@ from contactstudy.profiles.curve import ProfileCurve
 from contactstudy.profiles.outline import Arc, Line, Segment, resolve_path
 from contactstudy.resources import resource
 
-NAMES = ("60E1",)
+NAMES = ("60E1", "54E1", "49E1")
 
 # drawn as far as the head goes only
 _HEADS = ("UIC60-Manchester",)
@@ -66,7 +66,9 @@ class RailProfile:
     @property
     def web_thickness(self) -> float:
         """Least thickness of the web [m]."""
-        return 2.0 * self._piece("web").start[0]
+        web = self._piece("web")
+        waist = web.start[0] if isinstance(web, Line) else web.centre[0] - abs(web.radius)
+        return 2.0 * waist
 
     @cached_property
     def heights(self) -> dict[str, float]:
@@ -75,10 +77,10 @@ class RailProfile:
         Keys: ``side_top`` (end of the running surface's arcs), ``side_bottom`` (end of the side
         face), ``head_corner`` (start of the head's underside), ``head_web`` (underside goes over
         into the fillet to the web), ``head_bottom_axis`` (underside produced to the axis),
-        ``web_top`` and ``web_bottom`` (ends of the straight web), ``foot_top_axis`` (foot's top
-        produced to the axis), ``foot_web`` (fillet goes over into the foot's top),
-        ``foot_knee`` (middle of the fillet between the two slopes), ``foot_edge_top``,
-        ``foot_edge_bottom`` (ends of the vertical edge), ``foot_bottom``.
+        ``web_top`` and ``web_bottom`` (ends of the straight web, or of its longest arc),
+        ``foot_top_axis`` (foot's top produced to the axis), ``foot_web`` (fillet goes over into the
+        foot's top), ``foot_knee`` (middle of the fillet between the two slopes),
+        ``foot_edge_top``, ``foot_edge_bottom`` (ends of the vertical edge), ``foot_bottom``.
         """
         side, under = self._piece("side face"), self._piece("head underside")
         web, steep = self._piece("web"), self._piece("foot top, steep")

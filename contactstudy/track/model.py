@@ -12,7 +12,8 @@ import numpy as np
 
 from contactstudy.arrays import Array
 from contactstudy.track.bridge import Bridge
-from contactstudy.track.rail import Direction, GivenRail, Rail
+from contactstudy.track.rail import RAILS, Direction, Rail
+from contactstudy.track.rail import GivenRail as GivenRail
 from contactstudy.validation import (
     Above,
     AtLeast,
@@ -134,9 +135,7 @@ class Track(Parameters):
     bridge and its approaches. Without support nothing but the ends carries the rail (a beam).
     """
 
-    rail: Annotated[
-        Rail, Variants("rail", {"60E1": Rail, "given": GivenRail}, "profile, or given by values")
-    ] = field(default_factory=Rail)
+    rail: Annotated[Rail, RAILS] = field(default_factory=Rail)
     support: Annotated[
         Support,
         Variants(

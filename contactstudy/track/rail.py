@@ -1,24 +1,36 @@
 """The rail as a beam sees it: material and integrals of the cross-section."""
 
 from dataclasses import dataclass, field
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from contactstudy.profiles.section import SectionProperties
 from contactstudy.solids.recipe import CellRecipe
-from contactstudy.validation import Above, Key, Naming, Parameters, Same, Unit, positive
+from contactstudy.validation import Above, Key, Naming, Parameters, Same, Unit, Variants, positive
 from contactstudy.validation import quantities as q
 
 Direction = Literal["Z", "Y"]
 
-# 60E1 as tabulated in EN 13674-1; the shear coefficients are the usual 0.4 of the literature.
-NOMINAL_60E1 = SectionProperties(
-    area=76.70e-4,
-    second_moment_y=3038.3e-8,
-    second_moment_z=512.3e-8,
-    centroid_z=-0.0911,
-    shear_coefficient_z=0.4,
-    shear_coefficient_y=0.4,
-)
+
+def _section(area: float, vertical: float, lateral: float, above_foot: float, height: float
+             ) -> SectionProperties:  # fmt: skip
+    """From cm^2, cm^4 and mm; the shear coefficients are the usual 0.4 of the literature."""
+    return SectionProperties(
+        area=area * 1e-4,
+        second_moment_y=vertical * 1e-8,
+        second_moment_z=lateral * 1e-8,
+        centroid_z=(above_foot - height) * 1e-3,
+        shear_coefficient_z=0.4,
+        shear_coefficient_y=0.4,
+    )
+
+
+# as tabulated in EN 13674-1
+NOMINAL_60E1 = _section(76.70, 3038.3, 512.3, 80.9, 172.0)
+NOMINAL_54E1 = _section(69.77, 2337.9, 419.2, 75.1, 159.0)
+NOMINAL_49E1 = _section(62.92, 1816.0, 319.1, 73.4, 149.0)
+# GB 2585 and JIS E 1101
+NOMINAL_CHN60 = _section(77.45, 3217.0, 524.0, 81.2, 176.0)
+NOMINAL_JIS60 = _section(77.50, 3090.0, 512.0, 77.8, 174.0)
 
 
 @dataclass(frozen=True)
@@ -83,6 +95,51 @@ class Rail(Parameters):
 
 
 @dataclass(frozen=True)
+class Rail54E1(Rail):
+    """Rail 54E1 (UIC 54)."""
+
+    section: SectionProperties = NOMINAL_54E1
+    profile_name: str | None = "54E1"
+
+
+@dataclass(frozen=True)
+class Rail49E1(Rail):
+    """Rail 49E1 (S49)."""
+
+    section: SectionProperties = NOMINAL_49E1
+    profile_name: str | None = "49E1"
+
+
+@dataclass(frozen=True)
+class TabulatedRail(Rail):
+    """A rail of which the section's integrals are published, and no drawing is at hand."""
+
+    profile_name: str | None = field(init=False, default=None)
+    crown_radius: ClassVar[float]
+
+
+@dataclass(frozen=True)
+class RailCHN60(TabulatedRail):
+    """Chinese 60 kg/m rail, GB 2585: 77.45 cm^2, 3217 and 524 cm^4, 60.64 kg/m.
+
+    Area, vertical second moment and mass are also those of W. M. Zhai, K. Y. Wang and J. H. Lin, J.
+    Sound Vib. 270 (2004) 673.
+    """
+
+    section: SectionProperties = NOMINAL_CHN60
+    density: Annotated[float, Same(CellRecipe, "density")] = 60.64 / 77.45e-4
+    crown_radius: ClassVar[float] = 0.3
+
+
+@dataclass(frozen=True)
+class RailJIS60(TabulatedRail):
+    """Japanese 60 kg/m rail of Shinkansen lines, JIS E 1101: 77.5 cm^2, 3090 and 512 cm^4."""
+
+    section: SectionProperties = NOMINAL_JIS60
+    crown_radius: ClassVar[float] = 0.6
+
+
+@dataclass(frozen=True)
 class GivenRail(Rail):
     """A rail, or any beam, given by its stiffness and mass; both bending planes get the same EI."""
 
@@ -114,3 +171,18 @@ class GivenRail(Rail):
     def problems(self, key: Naming) -> list[str]:
         """Nothing more: the section is made of the values."""
         return []
+
+
+RAILS = Variants(
+    "rail",
+    {
+        "60E1": Rail,
+        "54E1": Rail54E1,
+        "49E1": Rail49E1,
+        "CHN60": RailCHN60,
+        "JIS60": RailJIS60,
+        "given": GivenRail,
+    },
+    "profile, or given by values; CHN60, JIS60 and given rails are not meshed",
+)
+"""What the key ``track.rail`` chooses."""

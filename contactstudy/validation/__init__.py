@@ -9,7 +9,7 @@ units that are printed (`resolved`, `units`), and the list of all keys (`entries
 from contactstudy.validation.base import Naming, Parameters
 from contactstudy.validation.checks import not_negative, positive, raise_if
 from contactstudy.validation.definition import Parameter, as_list, parameter, parameters
-from contactstudy.validation.messages import complaint, did_you_mean, unknown
+from contactstudy.validation.messages import any_of, complaint, did_you_mean, unknown
 from contactstudy.validation.metadata import (
     Above,
     AtLeast,
@@ -54,6 +54,7 @@ __all__ = [
     "Variants",
     "When",
     "Written",
+    "any_of",
     "as_list",
     "by",
     "complaint",

@@ -11,6 +11,7 @@ from contactstudy.profiles import (
     wheel_curve,
     wheel_profile,
 )
+from contactstudy.profiles.rail import NAMES
 from contactstudy.resources import resource
 
 
@@ -29,8 +30,9 @@ def test_unknown_profile_names_list_what_is_allowed():
         wheel_profile("square")
 
 
-def test_outline_is_tangent_continuous_from_crown_to_foot():
-    pieces = rail_profile().pieces
+@pytest.mark.parametrize("name", NAMES)
+def test_outline_is_tangent_continuous_from_crown_to_foot(name):
+    pieces = rail_profile(name).pieces
     assert pieces[0].start == (0.0, 0.0)
     for a, b in itertools.pairwise(pieces):
         assert a.end == b.start
@@ -92,6 +94,40 @@ def test_half_width_follows_the_outline():
     assert list(z.values()) == sorted(z.values(), reverse=True)
     with pytest.raises(InputError, match="between"):
         rail.half_width(0.001)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_drawn_rails_have_the_printed_integrals(name):
+    rail = rail_profile(name)
+    area, centre, vertical, lateral = polygon_properties(rail.outline)
+    printed = dict(rail.reference)
+    assert 1e4 * area == pytest.approx(printed["area"], rel=1e-4)
+    assert 7850 * area == pytest.approx(printed["mass"], rel=2e-4)
+    assert 1e8 * vertical == pytest.approx(printed["second_moment_y"], rel=5e-4)
+    assert 1e8 * lateral == pytest.approx(printed["second_moment_z"], rel=5e-4)
+    assert centre[0] == pytest.approx(0.0, abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("name", "height", "foot", "head", "web", "head_depth", "foot_depth"),
+    [
+        ("60E1", 172.0, 150.0, 72.0, 16.5, 51.0, 31.5),
+        ("54E1", 159.0, 140.0, 70.0, 16.0, 49.4, 30.2),
+        ("49E1", 149.0, 125.0, 67.0, 14.0, 51.5, 27.5),
+    ],
+)
+def test_drawn_rails_have_the_main_dimensions_of_catalogues(
+    name, height, foot, head, web, head_depth, foot_depth
+):
+    rail, z = rail_profile(name), rail_profile(name).heights
+    assert 1e3 * rail.height == pytest.approx(height)
+    assert 1e3 * rail.foot_width == pytest.approx(foot)
+    assert 1e3 * rail.web_thickness == pytest.approx(web)
+    assert -1e3 * z["head_bottom_axis"] == pytest.approx(head_depth)
+    assert 1e3 * (rail.height + z["foot_top_axis"]) == pytest.approx(foot_depth)
+    # the nominal width of a head is measured 14 mm below its top
+    assert 2e3 * rail.half_width(-0.014) == pytest.approx(head, abs=0.15)
+    assert list(z.values()) == sorted(z.values(), reverse=True)
 
 
 def test_polygon_integrals_of_a_shifted_rectangle():

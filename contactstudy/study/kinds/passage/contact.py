@@ -31,7 +31,7 @@ from contactstudy.study.kinds.passage.scan import PATHS as SCAN_PATHS
 from contactstudy.study.kinds.passage.schema import Study
 from contactstudy.study.kinds.passage.wheelset import PATHS as WHEELSET_PATHS
 from contactstudy.track.bay import bay_body
-from contactstudy.track.model import GivenRail
+from contactstudy.track.rail import GivenRail, TabulatedRail
 from contactstudy.validation import multiple
 
 
@@ -108,7 +108,7 @@ def hertz(study: Study) -> HertzContact:
     """Hertz's contact of the study's wheel and rail under the static wheel load."""
     rail, load = study.track.rail, study.vehicle.static_load
     modulus = contact_modulus(rail.youngs_modulus, rail.poisson_ratio)
-    if study.solid.half and isinstance(rail, GivenRail):
+    if study.solid.half and isinstance(rail, GivenRail | TabulatedRail):
         return hertz_contact(load, modulus, study.vehicle.wheel_radius, rail.crown_radius)
     return hertz_contact(load, modulus, *geometry(study).relative_radii())
 

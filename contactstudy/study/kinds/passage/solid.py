@@ -8,9 +8,11 @@ from typing import Annotated, Literal
 from contactstudy.contact.augmented import AugmentedLagrangian, Penalty
 from contactstudy.contact.surface_contact import SurfaceContact
 from contactstudy.geometry.quadrature import Quadrature
+from contactstudy.profiles.rail import NAMES
 from contactstudy.solids.recipe import CellRecipe
 from contactstudy.solids.wheel_recipe import WheelRecipe
 from contactstudy.track.model import DiscreteSupports, Track, whole
+from contactstudy.track.rail import RAILS
 from contactstudy.validation import (
     Above,
     AtLeast,
@@ -21,6 +23,7 @@ from contactstudy.validation import (
     Same,
     Unit,
     When,
+    any_of,
     by,
     complaint,
     entries,
@@ -112,8 +115,9 @@ class Solid(Parameters):
         if track.rail.profile_name is None:
             if not meshed:
                 return []  # the stiffness then is Hertz's
-            allowed = 'what is meshed needs a rail with a profile: "60E1"'
-            problems.append(complaint("track.rail", "given", allowed))
+            drawn = any_of(name for name in RAILS.classes if name in NAMES)
+            allowed = f"what is meshed needs a rail with a drawn profile: {drawn}"
+            problems.append(complaint("track.rail", RAILS.name(track.rail), allowed))
         if not whole(spacing(track) / self.cell_length):
             allowed = f"must divide {spacing(track):g} m into whole cells (m)"
             problems.append(complaint("solid.cell_length", self.cell_length, allowed))
