@@ -4,6 +4,7 @@
 """
 
 from contactstudy.irregularity.bands import band_deviations
+from contactstudy.irregularity.both_rails import both_rails
 from contactstudy.irregularity.chosen import Irregularity
 from contactstudy.irregularity.defective import DefectiveProfile, RollingDefect, even, with_defects
 from contactstudy.irregularity.depth_map import DepthMap
@@ -26,6 +27,7 @@ from contactstudy.irregularity.psd import Convention
 from contactstudy.irregularity.rail_defects import Corrugation, DippedJoint, Step, Weld
 from contactstudy.irregularity.sample import sample_profile
 from contactstudy.irregularity.spectra import fra, german, paper_spectrum, spectrum, tbt3352
+from contactstudy.irregularity.two_rails import RailPair
 from contactstudy.irregularity.wheel_defects import OutOfRound
 
 __all__ = [
@@ -40,6 +42,7 @@ __all__ = [
     "MeasuredProfile",
     "OutOfRound",
     "Profile",
+    "RailPair",
     "RepeatWarning",
     "RollingDefect",
     "RoundedFlat",
@@ -48,6 +51,7 @@ __all__ = [
     "TreadLines",
     "Weld",
     "band_deviations",
+    "both_rails",
     "check_repeat",
     "even",
     "faded",

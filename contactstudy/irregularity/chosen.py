@@ -16,6 +16,7 @@ from contactstudy.irregularity.wheel_defects import WHEEL_DEFECTS
 from contactstudy.validation import (
     Above,
     AtLeast,
+    AtMost,
     By,
     File,
     Naming,
@@ -33,8 +34,8 @@ _MEASURED = When("spectrum", "measured")
 _SINUSOID = When("spectrum", "sinusoid")
 # how a CSV file is read
 _CSV = (
-    "x_column", "level_column", "level_unit", "origin", "wavelengths", "interpolation",
-    "measured_overlay",
+    "x_column", "level_column", "left_column", "lateral_column", "left_lateral_column",
+    "level_unit", "origin", "wavelengths", "interpolation", "measured_overlay",
 )  # fmt: skip
 
 
@@ -71,6 +72,13 @@ class Irregularity(Parameters):
     jitter: Annotated[
         bool, _GENERATED, "wavenumbers at random in their intervals: nothing repeats itself"
     ] = False
+    coherence: Annotated[
+        float | Literal["decaying"], AtLeast(0), AtMost(1), _GENERATED,
+        "gamma^2 of the two rails, on a track with both: 1 alike, 0 independent, or exp(-l/lambda)",
+    ] = 1.0  # fmt: skip
+    coherence_wavelength: Annotated[
+        q.Length, When("coherence", "decaying"), "l, where it is 1/e"
+    ] = 3.0  # fmt: skip
     wavelength: Annotated[
         q.Length, _SINUSOID, "of r = amplitude cos(2 pi X/wavelength + phase)"
     ] = 1.0
@@ -85,6 +93,15 @@ class Irregularity(Parameters):
     ] = ""
     x_column: Annotated[str, "column of the CSV file with the position in m"] = "x"
     level_column: Annotated[str, "column with the level, up positive"] = ""
+    left_column: Annotated[
+        str, _MEASURED, "column with the left rail's level, where there are two; as the right's"
+    ] = ""  # fmt: skip
+    lateral_column: Annotated[
+        str, _MEASURED, "column with the right rail's alignment, to the left positive; none"
+    ] = ""  # fmt: skip
+    left_lateral_column: Annotated[
+        str, _MEASURED, "column with the left rail's alignment; as the right one's"
+    ] = ""  # fmt: skip
     level_unit: Annotated[Literal["mm", "m", "um", "µm"], "its unit"] = "mm"
     origin: Annotated[q.Position, _MEASURED, "position in the file that is X = 0"] = 0.0
     wavelengths: Annotated[
@@ -135,12 +152,17 @@ class Irregularity(Parameters):
         values = super().resolved()
         return values if self.measured_file else {k: values[k] for k in values if k not in _CSV}
 
-    def formula(self) -> Spectrum:
-        """The spectrum that is generated from; Table 1's where nothing is generated."""
+    def formula(self, direction: Literal["Z", "Y"] = "Z") -> Spectrum:
+        """The spectrum that is generated from; Table 1's where nothing is generated.
+
+        The paper has one formula for both directions.
+        """
         if not self.generated:
             return paper_spectrum()
-        paper = self.roughness, self.omega_1, self.omega_2
-        found = paper_spectrum(*paper) if self.spectrum == "paper" else spectrum(self.spectrum)
+        if self.spectrum == "paper":
+            found = paper_spectrum(self.roughness, self.omega_1, self.omega_2)
+        else:
+            found = spectrum(self.spectrum, direction="vertical" if direction == "Z" else "lateral")
         return found.read(self.sides)
 
     def profile(
@@ -152,7 +174,8 @@ class Irregularity(Parameters):
     ) -> Profile:
         """The profile, as a function of X.
 
-        In direction "Y" it is the seed's independent transverse one, without defects.
+        In direction "Y" it is the seed's independent transverse one, from the spectrum's lateral
+        formula if it has one, without defects.
 
         Parameters
         ----------
@@ -181,7 +204,8 @@ class Irregularity(Parameters):
         if self.spectrum == "measured":
             return self.measured(self.wavelengths, required)
         which: Literal["vertical", "transverse"] = "vertical" if direction == "Z" else "transverse"
-        return sample_profile(self.formula(), self.seed, self.terms, self.band, self.jitter, which)
+        formula = self.formula(direction)
+        return sample_profile(formula, self.seed, self.terms, self.band, self.jitter, which)
 
     def measured(
         self, wavelengths: tuple[float, float] | None, required: tuple[float, float] | None = None

@@ -75,13 +75,20 @@ def german(
     return Spectrum(name, formula, Convention(sides))
 
 
-_FRA = (1.2107, 1.0181, 0.6816, 0.5376, 0.2095, 0.0339)
+_FRA = {
+    "vertical": (1.2107, 1.0181, 0.6816, 0.5376, 0.2095, 0.0339),
+    "lateral": (3.3634, 1.2107, 0.4128, 0.3027, 0.0762, 0.0339),
+}
 
 
-def fra(track_class: int = 6, sides: Sides = "one") -> Spectrum:
-    """Vertical spectrum of the Federal Railroad Administration's track classes 1 to 6.
+def fra(
+    track_class: int = 6,
+    direction: Literal["vertical", "lateral"] = "vertical",
+    sides: Sides = "one",
+) -> Spectrum:
+    """Spectrum of the Federal Railroad Administration's track classes 1 to 6.
 
-    Class 1 is the worst; ``sides`` as in `german`.
+    Class 1 is the worst; ``direction`` and ``sides`` as in `german`.
 
     Notes
     -----
@@ -89,38 +96,53 @@ def fra(track_class: int = 6, sides: Sides = "one") -> Spectrum:
     does this program: class 6 has a standard deviation of 1.43 mm from 3 to 25 m. The documentation
     of STEM ("Irregularities model", after Zhang et al. 2001) has 2 pi in place of 0.25 and
     amplitudes ``sqrt(4 S dw)``, which is two-sided.
+
+    The lateral A_a are those that the tables of the literature print beside A_v; no program was at
+    hand to hold them against.
     """
     _one_of("fra", "track_class", track_class, tuple(range(1, 7)))
+    _one_of("fra", "direction", direction, tuple(_FRA))
     _one_of("fra", "sides", sides, ("two", "one"))
-    a, omega_c = _FRA[track_class - 1], 0.8245
+    a, omega_c = _FRA[direction][track_class - 1], 0.8245
 
     def formula(w: Array) -> Array:
-        # S = 0.25 A_v w_c^2/(w^2 (w^2 + w_c^2)), A_v in cm^2 rad/m
+        # S = 0.25 A w_c^2/(w^2 (w^2 + w_c^2)), A_v or A_a in cm^2 rad/m
         return 0.25 * a * omega_c**2 / (w**2 * (w**2 + omega_c**2))
 
-    return Spectrum(f"FRA class {track_class}", formula, Convention(sides, "rad/m", 1e-4))
+    name = f"FRA class {track_class}" + ("" if direction == "vertical" else ", lateral")
+    return Spectrum(name, formula, Convention(sides, "rad/m", 1e-4))
 
 
 # S = A/f^n in mm^2/(1/m), one-sided, f in 1/m: upper end of each range, A, n
-_TBT3352 = (
-    (0.0187, 1.0544e-5, 3.3891),
-    (0.0474, 3.5588e-3, 1.9271),
-    (0.1533, 1.9784e-2, 1.3643),
-    (np.inf, 3.9488e-4, 3.4516),
-)
+_TBT3352 = {
+    "vertical": (
+        (0.0187, 1.0544e-5, 3.3891),
+        (0.0474, 3.5588e-3, 1.9271),
+        (0.1533, 1.9784e-2, 1.3643),
+        (np.inf, 3.9488e-4, 3.4516),
+    ),
+    "lateral": (
+        (0.0450, 3.9513e-3, 1.8670),
+        (0.1234, 1.1047e-2, 1.5354),
+        (np.inf, 7.5633e-4, 2.8171),
+    ),
+}
 
 
-def tbt3352() -> Spectrum:
-    """Longitudinal level of Chinese ballastless high-speed track, TB/T 3352-2014."""
-    ends = np.array([row[0] for row in _TBT3352[:-1]])
-    a, n = np.array([row[1] for row in _TBT3352]), np.array([row[2] for row in _TBT3352])
+def tbt3352(direction: Literal["vertical", "lateral"] = "vertical") -> Spectrum:
+    """Longitudinal level or alignment of Chinese ballastless high-speed track, TB/T 3352-2014."""
+    _one_of("tbt3352", "direction", direction, tuple(_TBT3352))
+    rows = _TBT3352[direction]
+    ends = np.array([row[0] for row in rows[:-1]])
+    a, n = np.array([row[1] for row in rows]), np.array([row[2] for row in rows])
 
     def formula(f: Array) -> Array:
         part = np.searchsorted(ends, f, side="right")
         return a[part] / f ** n[part]
 
     convention = Convention("one", "1/m", 1e-6)
-    return Spectrum("TB/T 3352 ballastless", formula, convention, tuple(ends))
+    name = "TB/T 3352 ballastless" + ("" if direction == "vertical" else ", lateral")
+    return Spectrum(name, formula, convention, tuple(ends))
 
 
 _NAMED: dict[str, tuple[Callable[..., Spectrum], dict[str, Any]]] = {
@@ -141,8 +163,8 @@ def spectrum(name: str, **parameters: Any) -> Spectrum:
     name : str
         One of ``spectra.NAMES``; capitals, blanks and dashes do not matter.
     **parameters
-        Passed on: ``roughness``, ``omega_1``, ``omega_2`` for "paper"; ``direction`` and
-        ``sides`` for the German, ``sides`` for the FRA spectra.
+        Passed on: ``roughness``, ``omega_1``, ``omega_2`` for "paper"; ``direction`` for all
+        others, ``sides`` for the German and the FRA spectra.
 
     Raises
     ------
