@@ -11,7 +11,7 @@ from contextvars import ContextVar
 from pathlib import Path
 from typing import Any
 
-from contactstudy.files import writing
+from contactstudy.files import write_file
 from contactstudy.given_files import file_content, is_file
 from contactstudy.validation import Parameters, parameters
 
@@ -49,8 +49,7 @@ def _received(owner: type, values: dict[str, Any], files: dict[str, tuple[str, b
     for field, (name, content) in files.items():
         path = _folder.get() / hashlib.sha256(content).hexdigest()[:16] / name
         if not path.exists():
-            with writing(path) as temporary:
-                temporary.write_bytes(content)
+            write_file(path, content)
         values[field] = str(path)
     vars(made).update(values)
     return made

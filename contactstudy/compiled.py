@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import contextlib
 import functools
 import hashlib
 import inspect
+import pickle
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -39,14 +41,26 @@ class Compiled:
         for name in function.__code__.co_names:
             if isinstance(known.get(name), Compiled):  # numba must find its own there
                 known[name] = known[name].compiled
-        found: Callable[..., Any]
+        found: Any
         try:
             found = njit(cache=True, **self._options)(function)
+            for name in ("load_overload", "save_overload"):
+                setattr(found._cache, name, _if_possible(getattr(found._cache, name)))
         except RuntimeError:  # no folder to keep it in, neither beside the code nor the user's
             found = njit(**self._options)(function)
         if known.get(function.__name__) is self:  # its own module need not ask again
             known[function.__name__] = found
         return found
+
+
+def _if_possible(access: Callable[..., Any]) -> Callable[..., Any]:
+    """Access to what numba keeps on disk; without it, as when the disk is full, it compiles."""
+
+    def tried(*arguments: Any) -> Any:
+        with contextlib.suppress(OSError, EOFError, pickle.UnpicklingError):
+            return access(*arguments)
+
+    return tried
 
 
 def compiled(function: Callable[..., Any]) -> Compiled:

@@ -12,7 +12,7 @@ from contactstudy.cluster import Cluster
 from contactstudy.exceptions import InputError
 from contactstudy.executor import at_once, check_workers
 from contactstudy.figures import write_figures
-from contactstudy.files import ensure_writable, file_digest, remove_unfinished
+from contactstudy.files import alone, ensure_writable, file_digest, remove_unfinished
 from contactstudy.report import write_report
 from contactstudy.reporter import Quiet, Reporter
 from contactstudy.store import Store
@@ -32,6 +32,7 @@ from contactstudy.study.status import write_plan
 from contactstudy.study.study import Study
 
 FINISHED = "finished"
+_WAITING = "{}: {} is at work here; this one goes on when it has ended"
 
 
 def run_study(
@@ -59,23 +60,27 @@ def run_study(
         When a run broke down; the others are finished and kept.
     """
     reporter, out_dir = reporter or Quiet(), Path(out_dir)
-    with _executor(workers, scheduler, reporter) as executor:
+    ensure_writable(out_dir)
+    with (
+        alone(out_dir / RUNS, lambda who: reporter.note(_WAITING.format(out_dir, who))),
+        _executor(workers, scheduler, reporter) as executor,
+    ):
         plan = _planned(study, out_dir, reporter, quick)
         if (done := _finished_results(plan)) is not None:
             reporter.note(f"{out_dir}: all results are there and up to date")
             return done
         write_plan(plan, at_once(workers, executor))
         results = _computed(plan, workers, reporter, executor)
-    with reporter.stage("writing the results"):
-        written = _write(results, out_dir)
-    written += render(results, out_dir, reporter)
-    for folder in {path.parent for path in written}:
-        remove_unfinished(folder)
-    if results.failures:
-        return results  # they are tried again the next time
-    sums = {p.relative_to(out_dir).as_posix(): file_digest(p) for p in written}
-    Store(out_dir / RUNS).save(FINISHED, plan.key(), sums)
-    return results
+        with reporter.stage("writing the results"):
+            written = _write(results, out_dir)
+        written += render(results, out_dir, reporter)
+        for folder in {path.parent for path in written}:
+            remove_unfinished(folder)
+        if results.failures:
+            return results  # they are tried again the next time
+        sums = {p.relative_to(out_dir).as_posix(): file_digest(p) for p in written}
+        Store(out_dir / RUNS).save(FINISHED, plan.key(), sums)
+        return results
 
 
 def compute_study(

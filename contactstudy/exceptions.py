@@ -1,5 +1,6 @@
-"""The two ways a study can fail: what the user gave, and what the numbers did."""
+"""The ways a study can fail: what the user gave, where it is written, what the numbers did."""
 
+import errno
 from collections.abc import Iterable
 
 
@@ -27,5 +28,35 @@ class InputError(ContactStudyError):
         super().__init__("\n".join(self.problems))
 
 
+class StorageError(ContactStudyError):
+    """A file cannot be written, because the disk, a quota or a limit of its size is reached."""
+
+
 class NumericalError(ContactStudyError):
     """The computation broke down; the message says where (step, position) and why."""
+
+
+_REASONS = {
+    errno.EACCES: "you may not do that",
+    errno.EPERM: "you may not do that",
+    errno.EROFS: "the disk is read-only",
+    errno.ENOTDIR: "a part of its path is a file, not a folder",
+    errno.EEXIST: "a part of its path is a file, not a folder",
+    errno.EISDIR: "it is a folder",
+    errno.ENOTEMPTY: "it is a folder",
+    errno.ENOENT: "there is no such folder",
+    errno.ENAMETOOLONG: "its name is too long",
+    errno.ELOOP: "its links lead to each other",
+    errno.ENOSPC: "the disk is full",
+    errno.EDQUOT: "your quota on the disk is used up",
+    errno.EFBIG: "it is larger than files may become here, see ulimit -f",
+    errno.EIO: "the disk reports an error",
+}
+
+
+def reason(error: BaseException | None) -> str:
+    """Why a file could not be opened or written."""
+    code = error.errno if isinstance(error, OSError) else None
+    if code in _REASONS:
+        return _REASONS[code]
+    return getattr(error, "strerror", None) or type(error).__name__

@@ -3,42 +3,65 @@
 from __future__ import annotations
 
 import contextlib
+import errno
 import functools
 import hashlib
+import io
 import os
 import platform
+import shutil
 import tempfile
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
-from contactstudy.exceptions import InputError
+from contactstudy.exceptions import InputError, StorageError, reason
 
 #: Marks a temporary file as ours.
 _UNFINISHED = ".unfinished-"
 _ABANDONED = 3600.0  # s
+_NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
+
+
+def write_file(path: Path, content: bytes | memoryview | str) -> None:
+    """Put `content`, text in UTF-8, beside `path` and rename it; its folder is made when absent.
+
+    Raises
+    ------
+    InputError
+        If the folder cannot be made or written.
+    StorageError
+        If there is no room; what was there before stays.
+    """
+    data = content.encode() if isinstance(content, str) else content
+    temporary: Path | None = None
+    try:
+        with _said_of(path, len(data)):
+            path.parent.mkdir(parents=True, exist_ok=True)
+            prefix = f"{_UNFINISHED}{_node()}-{os.getpid()}-"
+            handle, name = tempfile.mkstemp(dir=path.parent, prefix=prefix)
+            temporary = Path(name)
+            with open(handle, "wb") as stream:  # noqa: PTH123 - it is open already
+                stream.write(data)
+            umask = os.umask(0)
+            os.umask(umask)
+            temporary.chmod(0o666 & ~umask)  # mkstemp makes files that only their owner can read
+            temporary.replace(path)
+    finally:
+        if temporary is not None:
+            temporary.unlink(missing_ok=True)
 
 
 @contextlib.contextmanager
-def writing(path: Path) -> Iterator[Path]:
-    """Give a temporary path beside `path`; rename it to `path` when the block succeeds.
+def writing(path: Path) -> Iterator[io.BytesIO]:
+    """Give a stream in memory; when the block succeeds, its content becomes the file `path`.
 
-    Its directory is made when absent; `InputError` when it cannot be made or written.
+    So no library writes on a disk: on a full one, some crash (h5py) and some write half a file.
     """
-    with _said_of(path.parent):
-        path.parent.mkdir(parents=True, exist_ok=True)
-        prefix = f"{_UNFINISHED}{_node()}-{os.getpid()}-"
-        handle, name = tempfile.mkstemp(dir=path.parent, prefix=prefix, suffix=path.suffix)
-    os.close(handle)
-    temporary = Path(name)
-    try:
-        yield temporary
-        umask = os.umask(0)
-        os.umask(umask)
-        temporary.chmod(0o666 & ~umask)  # mkstemp makes files that only their owner can read
-        temporary.replace(path)
-    finally:
-        temporary.unlink(missing_ok=True)
+    stream = io.BytesIO()
+    yield stream
+    with stream.getbuffer() as content:
+        write_file(path, content)
 
 
 def remove_unfinished(directory: Path) -> None:
@@ -47,7 +70,7 @@ def remove_unfinished(directory: Path) -> None:
     Of writers that may live, as those on other machines, what is an hour old.
     """
     for path in directory.glob(f"{_UNFINISHED}*"):
-        with contextlib.suppress(FileNotFoundError):  # its writer has ended meanwhile
+        with contextlib.suppress(OSError):  # its writer has ended meanwhile, or is somebody else
             if _has_ended(path) or path.stat().st_mtime <= time.time() - _ABANDONED:
                 path.unlink()
 
@@ -74,41 +97,93 @@ def _node() -> str:
 
 
 @contextlib.contextmanager
-def alone(path: Path) -> Iterator[None]:
-    """Meanwhile no other process makes `path`; one that is killed gives way at once.
+def alone(path: Path, told: Callable[[str], None] = lambda holder: None) -> Iterator[None]:
+    """Meanwhile no other process makes `path`; `told` hears for which one this one has to wait.
 
-    Where files cannot be locked, others may do the same work at the same time.
+    A process that is killed gives way at once. Where files cannot be locked (Windows, some network
+    file systems), others may do the same work at the same time: each file is whole all the same.
     """
-    lock = path.with_name(f"{_UNFINISHED}{path.stem}.lock")
+    lock = path.with_name(f".{path.name}.lock")
     with contextlib.ExitStack() as stack:
         with contextlib.suppress(ImportError, OSError):
-            import fcntl
-
             lock.parent.mkdir(parents=True, exist_ok=True)
-            stream = stack.enter_context(lock.open("w"))
-            fcntl.flock(stream, fcntl.LOCK_EX)
-            stack.callback(lock.unlink, missing_ok=True)
+            stack.enter_context(_locked(lock, told))
+            stack.callback(_remove, lock)
         yield
+
+
+def _remove(path: Path) -> None:
+    with contextlib.suppress(OSError):
+        path.unlink()
+
+
+def _locked(lock: Path, told: Callable[[str], None]) -> io.FileIO:
+    """The locked file; it says who has locked it."""
+    import fcntl
+
+    while True:
+        stream = io.FileIO(lock, "a+")
+        try:
+            fcntl.flock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            stream.seek(0)
+            told(stream.read(200).decode(errors="replace") or "another process")
+            fcntl.flock(stream, fcntl.LOCK_EX)
+        if _is_there(lock, stream):  # not removed by who had it before
+            break
+        stream.close()
+    with contextlib.suppress(OSError):  # on a full disk
+        stream.truncate(0)
+        stream.write(f"process {os.getpid()} on {platform.node()}".encode())
+    return stream
+
+
+def _is_there(path: Path, stream: io.FileIO) -> bool:
+    try:
+        return os.path.samestat(path.stat(), os.fstat(stream.fileno()))
+    except FileNotFoundError:
+        return False
 
 
 def ensure_writable(directory: Path) -> None:
     """Make `directory` and try to write in it; `InputError` says why when that fails."""
-    with _said_of(directory):
+    with _said_of(directory / "file"):
         directory.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=directory):
             pass
 
 
 @contextlib.contextmanager
-def _said_of(directory: Path) -> Iterator[None]:
+def _said_of(path: Path, size: int = 0) -> Iterator[None]:
+    """Say in our words why a file of `size` bytes cannot be written."""
     try:
         yield
     except OSError as error:
-        reason = error.strerror or str(error)
+        if error.errno in _NO_ROOM:
+            told = f"{reason(error)}; {_bytes(size)} needed"
+            if error.errno == errno.ENOSPC:
+                told += f", {_room(path)} free"
+            again = "make room and give the same command again; what is finished is kept"
+            raise StorageError(f"{path}: cannot be written ({told}); {again}") from error
         raise InputError(
-            f"output folder {directory}: cannot be written ({reason}); "
+            f"output folder {path.parent}: cannot be written ({reason(error)}); "
             "give a folder that can be made and written with --out"
         ) from error
+
+
+def _room(path: Path) -> str:
+    """Free bytes where a file would be written."""
+    try:
+        return _bytes(shutil.disk_usage(path.parent).free)
+    except OSError:
+        return "unknown"
+
+
+def _bytes(number: int) -> str:
+    for unit, name in ((1e9, "GB"), (1e6, "MB"), (1e3, "kB")):
+        if number >= unit:
+            return f"{number / unit:.3g} {name}"
+    return f"{number} bytes"
 
 
 def file_digest(path: Path) -> str:

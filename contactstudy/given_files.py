@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-from contactstudy.exceptions import InputError
+from contactstudy.exceptions import InputError, reason
 
 LARGEST = 2**30
 """Bytes of the largest file that is read."""
@@ -61,7 +61,7 @@ def file_content(path: str | Path, largest: int = LARGEST) -> bytes:
         raise InputError(f"{file}: there is no such file") from None
     except OSError as error:
         name = str(file) if len(str(file)) < 300 else f"{str(file)[:100]}..."
-        raise InputError(f"{name}: cannot be read ({error.strerror})") from None
+        raise InputError(f"{name}: cannot be read ({reason(error)})") from None
 
 
 def file_text(path: str | Path, kind: str = "text", fallback: str = "") -> str:

@@ -15,10 +15,10 @@ import zipfile
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 from contactstudy.code import code_digest
-from contactstudy.files import file_digest, remove_unfinished, writing
+from contactstudy.files import file_digest, remove_unfinished, write_file, writing
 from contactstudy.provenance import COMPUTING, versions
 
 if TYPE_CHECKING:
@@ -38,7 +38,7 @@ class Form:
     """How content is written and read; it is only read when it has the right checksum."""
 
     suffix: str
-    write: Callable[[Any, Path], None]
+    write: Callable[[Any, BinaryIO], None]
     read: Callable[[Path], Any]
 
 
@@ -132,13 +132,12 @@ class Store:
         _tidy(self.folder)
         path, slip = self.path(name, key), dict[str, Any](about=dict(about or {}))
         if self.form is None:
-            with writing(path) as temporary:
-                _write_plain(slip | {"sha256": digest(value, 64), "value": value}, temporary)
+            write_file(path, _plain(slip | {"sha256": digest(value, 64), "value": value}))
             return path
-        with writing(path) as temporary:
-            self.form.write(value, temporary)
-            with writing(path.with_suffix(".json")) as beside:
-                _write_plain(slip | {"sha256": file_digest(temporary)}, beside)
+        with writing(path) as stream:
+            self.form.write(value, stream)
+            sha256 = hashlib.sha256(stream.getbuffer()).hexdigest()
+            write_file(path.with_suffix(".json"), _plain(slip | {"sha256": sha256}))
         return path
 
     def files(self) -> list[Path]:
@@ -188,14 +187,14 @@ def netcdf_attributes(run: xr.Dataset, drop: tuple[str, ...] = MACHINE_ATTRIBUTE
     return copy
 
 
-def _write_plain(value: Any, path: Path) -> None:
-    path.write_text(json.dumps(value, ensure_ascii=False) + "\n", "utf-8")
+def _plain(value: Any) -> str:
+    return json.dumps(value, ensure_ascii=False) + "\n"
 
 
-def _write_arrays(arrays: Mapping[str, Any], path: Path) -> None:
+def _write_arrays(arrays: Mapping[str, Any], stream: BinaryIO) -> None:
     import numpy as np
 
-    np.savez(path, allow_pickle=False, **arrays)
+    np.savez(stream, allow_pickle=False, **arrays)
 
 
 def _read_arrays(path: Path) -> dict[str, Any]:
@@ -205,7 +204,7 @@ def _read_arrays(path: Path) -> dict[str, Any]:
         return dict(data)
 
 
-def _write_dataset(data: xr.Dataset, path: Path) -> None:
+def _write_dataset(data: xr.Dataset, stream: BinaryIO) -> None:
     """Arrays as they are and all else in a header: a tenth of the time that netCDF takes."""
     import numpy as np
 
@@ -216,7 +215,7 @@ def _write_dataset(data: xr.Dataset, path: Path) -> None:
         header.setdefault(place, []).append([name, variable.dims, variable.attrs, number])
     header["attrs"] = clean.attrs
     text = json.dumps(header, ensure_ascii=False, default=lambda value: value.tolist())
-    np.savez(path, allow_pickle=False, header=np.array(text), **arrays)
+    np.savez(stream, allow_pickle=False, header=np.array(text), **arrays)
 
 
 def _read_dataset(path: Path) -> xr.Dataset:

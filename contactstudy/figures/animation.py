@@ -3,12 +3,13 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO
 
 import numpy as np
 import xarray as xr
-from matplotlib.animation import PillowWriter
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from PIL import Image
 
 from contactstudy.arrays import Array
 from contactstudy.compare.signals import position, values
@@ -54,8 +55,8 @@ def write_animations(results: StudyResults, out_dir: Path) -> list[Path]:
     for name, run in found.items():
         suffix = f"_{name}" if len(found) > 1 else ""
         target = Path(out_dir) / FIGURES / f"patch{suffix}.gif"
-        with writing(target) as path, figure_style():
-            _animate(name, run, path)
+        with writing(target) as stream, figure_style():
+            _animate(name, run, stream)
         written.append(target)
     return written
 
@@ -67,15 +68,19 @@ def frames_of(run: xr.Dataset) -> PatchFrames:
     return PatchFrames(x, y, grid * 1e-6, np.asarray(run["frame_position"].values, dtype=float))
 
 
-def _animate(name: str, run: xr.Dataset, path: Path) -> None:
+def _animate(name: str, run: xr.Dataset, stream: BinaryIO) -> None:
     frames = frames_of(run)
     figure, parts = _draw(name, run, frames)
-    rate = float(np.clip(len(frames.position) / _SECONDS, *_FRAMES_A_SECOND))
-    writer = PillowWriter(fps=rate)  # type: ignore[arg-type]
-    with writer.saving(figure, str(path), _DPI):
-        for k in range(len(frames.position)):
-            _show(parts, frames, k)
-            writer.grab_frame()
+    figure.set_dpi(_DPI)
+    canvas, pictures = FigureCanvasAgg(figure), list[Image.Image]()
+    for k in range(len(frames.position)):
+        _show(parts, frames, k)
+        canvas.draw()
+        pictures.append(Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB"))
+    rate = float(np.clip(len(pictures) / _SECONDS, *_FRAMES_A_SECOND))
+    first, *others = pictures
+    each = int(1000 / rate)  # ms
+    first.save(stream, "gif", save_all=True, append_images=others, duration=each, loop=0)
 
 
 def _draw(name: str, run: xr.Dataset, frames: PatchFrames) -> tuple[Figure, Mapping[str, Any]]:

@@ -141,12 +141,12 @@ def save(figure: Figure, folder: Path, name: str) -> list[Path]:
         layout.execute(figure)
     figure.set_layout_engine("none")
     pdf, png = folder / f"{name}.pdf", folder / f"{name}.png"
-    with writing(pdf) as path:
+    with writing(pdf) as stream:
         dates = {"CreationDate": None, "Creator": None, "Producer": None}
-        FigureCanvasPdf(figure).print_pdf(path, metadata=dates)
-    with writing(png) as path:
+        FigureCanvasPdf(figure).print_pdf(stream, metadata=dates)
+    with writing(png) as stream:
         figure.set_dpi(PNG_DPI)
-        FigureCanvasAgg(figure).print_png(path, metadata={"Software": None})
+        FigureCanvasAgg(figure).print_png(stream, metadata={"Software": None})
     return [pdf, png]
 
 

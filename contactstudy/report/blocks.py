@@ -3,6 +3,8 @@
 import re
 from typing import Any
 
+from contactstudy.study.results import FIGURES
+
 Block = dict[str, Any]
 
 
@@ -35,7 +37,7 @@ def table(
 
 def figure(name: str, caption: str) -> Block:
     """Return the figure of a drawing."""
-    return {"kind": "figure", "file": f"{name}.pdf", "caption": caption}
+    return {"kind": "figure", "file": f"{FIGURES}/{name}.pdf", "caption": caption}
 
 
 def bullets(items: list[str]) -> Block:

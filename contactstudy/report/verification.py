@@ -1,12 +1,11 @@
 """The verification document as a PDF: what each named case found."""
 
 import math
-import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from contactstudy.files import writing
+from contactstudy.files import write_file
 from contactstudy.plot.draw import draw
 from contactstudy.plot.style import figure_style, save
 from contactstudy.plot.text import exact
@@ -28,17 +27,13 @@ def write_verification(
 
     `about` are versions and hash, see `contactstudy.verification.runner.about`.
     """
-    with tempfile.TemporaryDirectory() as folder, writing(out_dir / PDF_FILE) as path:
-        root = Path(folder)
-        with figure_style():
-            for outcome in outcomes:
-                for k, plot in enumerate(outcome.result.figures if outcome.result else ()):
-                    name = _figure(outcome, k)
-                    pdf, _ = save(draw(plot), out_dir / "figures", name)
-                    (root / "figures").mkdir(exist_ok=True)
-                    (root / "figures" / f"{name}.pdf").write_bytes(pdf.read_bytes())
-        path.write_bytes(typeset(root, ("sections.typ",), document(outcomes, about)))
-    return out_dir / PDF_FILE
+    with figure_style():
+        for outcome in outcomes:
+            for k, plot in enumerate(outcome.result.figures if outcome.result else ()):
+                save(draw(plot), out_dir / "figures", _figure(outcome, k))
+    target = out_dir / PDF_FILE
+    write_file(target, typeset(("sections.typ",), document(outcomes, about), out_dir))
+    return target
 
 
 def document(outcomes: Sequence[CaseOutcome], about: dict[str, Any]) -> dict[str, Any]:

@@ -11,7 +11,7 @@ from typing import Any, Generic, TypeVar
 
 import numpy as np
 
-from contactstudy.exceptions import InputError
+from contactstudy.exceptions import InputError, StorageError, reason
 from contactstudy.files import alone
 from contactstudy.store import ARRAYS, Store, StoreWarning, store_key
 
@@ -98,8 +98,9 @@ def _made(body: CachedBody[Made], store: Store) -> Made:
     names = [f.name for f in fields(body.made) if f.name != "recipe"]  # type: ignore[arg-type]
     try:
         store.save(name, key, {field: np.asarray(getattr(made, field)) for field in names})
-    except (OSError, InputError) as error:
-        message = f"cache entry {store.path(name, key)} cannot be written ({_reason(error)})"
+    except (InputError, StorageError) as error:
+        why = reason(error.__cause__)
+        message = f"cache entry {store.path(name, key)} cannot be written ({why})"
         warnings.warn(f"{message}; the result is used uncached", StoreWarning, stacklevel=3)
     return made
 
@@ -111,8 +112,3 @@ def entry_path(body: CachedBody[Any], store: Store | None = None) -> Path:
 
 def _name(body: CachedBody[Any]) -> str:
     return type(body.recipe).__name__
-
-
-def _reason(error: Exception) -> str:
-    cause = error.__cause__ or error
-    return getattr(cause, "strerror", None) or str(cause)

@@ -23,7 +23,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from contactstudy.exceptions import InputError
-from contactstudy.files import writing
+from contactstudy.files import write_file, writing
 from contactstudy.store import netcdf_attributes
 
 if TYPE_CHECKING:
@@ -117,10 +117,9 @@ def write_results(results: StudyResults, out_dir: Path) -> list[Path]:
     Both are written beside their final place and renamed, so that neither is ever half there.
     """
     files = [Path(out_dir) / RESULT_FILE, Path(out_dir) / METRICS_FILE]
-    with writing(files[0]) as path:
-        results.tree.to_netcdf(path, engine="h5netcdf")
-    with writing(files[1]) as path:
-        path.write_text(json.dumps(results.metrics, indent=2, ensure_ascii=False) + "\n", "utf-8")
+    with writing(files[0]) as stream:
+        results.tree.to_netcdf(stream, engine="h5netcdf")
+    write_file(files[1], json.dumps(results.metrics, indent=2, ensure_ascii=False) + "\n")
     return files
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from contactstudy.exceptions import InputError
-from contactstudy.files import writing
+from contactstudy.files import write_file
 from contactstudy.plot.text import counted
 from contactstudy.store import ARRAYS, Store
 from contactstudy.study.axes.terminal import duration
@@ -38,8 +38,8 @@ def write_plan(plan: Plan, workers: int) -> None:
                 "variants": [[number[p] for p in v.pieces.values()] for v in one.variants.values()],
             }
         )
-    with writing(plan.out_dir / RUNS / PLAN_FILE) as path:
-        path.write_text(json.dumps({"workers": workers, "studies": studies}) + "\n", "utf-8")
+    text = json.dumps({"workers": workers, "studies": studies}) + "\n"
+    write_file(plan.out_dir / RUNS / PLAN_FILE, text)
 
 
 @dataclass(frozen=True)

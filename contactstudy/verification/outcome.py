@@ -9,7 +9,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any, Literal
 
-from contactstudy.files import writing
+from contactstudy.files import write_file
 from contactstudy.plot.curves import Curve, Plot
 from contactstudy.verification.check import CaseResult, Check, ResultTable
 
@@ -80,9 +80,8 @@ def write_json(outcomes: Sequence[CaseOutcome], about: dict[str, Any], out_dir: 
         for o in outcomes
     ]
     path = out_dir / JSON_FILE
-    with writing(path) as temporary:
-        text = json.dumps(about | {"cases": cases}, indent=1, ensure_ascii=False, allow_nan=False)
-        temporary.write_text(text + "\n", "utf-8")
+    text = json.dumps(about | {"cases": cases}, indent=1, ensure_ascii=False, allow_nan=False)
+    write_file(path, text + "\n")
     return path
 
 

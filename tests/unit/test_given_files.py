@@ -45,7 +45,7 @@ def test_names_that_no_file_has(tmp_path):
     os.truncate(tmp_path / "large.toml", 2**33)  # a hole, no bytes on the disk
     for name, reason in (
         ("none.toml", "there is no such file"),
-        ("x" * 300 + ".toml", "File name too long"),
+        ("x" * 300 + ".toml", "its name is too long"),
         ("a\0b.toml", "a zero byte in the name"),
         ("pipe.toml", "a device or pipe"),
         ("", "it is a folder"),

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -107,6 +108,32 @@ def test_thirty_kills_and_a_byte_identical_end(tmp_path, sweep):
     finish(study, out)
     print(f"{killed} kills, {ends + 1} ends, {seconds:.1f} s without")
     same(content(out), expected)
+
+
+@pytest.mark.slow
+def test_two_processes_and_one_folder(tmp_path):
+    """The second waits, and then finds all there; where the first is killed, it goes on at once."""
+    study, out = tmp_path / "study.toml", tmp_path / "out"
+    study.write_text(STUDY)
+    finish(study, tmp_path / "at once")
+    first, second = started(study, out), started(study, out)
+    told = [process.communicate(timeout=300)[1] for process in (first, second)]
+    assert first.returncode == second.returncode == 0
+    (waited,) = [text for text in told if "is at work here" in text]
+    assert re.search(r"out: process \d+ on \S+ is at work here; .*\n.*are there and up to", waited)
+    same(content(out), content(tmp_path / "at once"))
+    out = tmp_path / "killed"
+    first, second = started(study, out), started(study, out)
+    lock = out / ".runs.lock"
+    while not lock.exists() or not lock.read_text():
+        time.sleep(0.05)
+    held = int(lock.read_text().split()[1])
+    killed, other = (first, second) if first.pid == held else (second, first)
+    killed.kill()
+    _, err = other.communicate(timeout=300)
+    assert other.returncode == 0, err
+    killed.communicate()
+    same(content(out), content(tmp_path / "at once"))
 
 
 @pytest.mark.slow

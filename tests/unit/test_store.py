@@ -116,33 +116,38 @@ def test_clearing_removes_own_files_only(tmp_path):
 
 def test_a_file_is_whole_or_not_there_with_the_usual_mode(tmp_path):
     target = tmp_path / "deep" / "a.txt"
-    with pytest.raises(ZeroDivisionError), writing(target) as path:
-        path.write_text("half")
+    target.parent.mkdir()
+    with pytest.raises(ZeroDivisionError), writing(target) as stream:
+        stream.write(b"half")
         raise ZeroDivisionError
     assert list(target.parent.iterdir()) == []
     (tmp_path / "plain").touch()
-    with writing(target) as path:
-        path.write_text("whole")
+    with writing(target) as stream:
+        stream.write(b"whole")
     assert target.read_text() == "whole"
     assert target.stat().st_mode == (tmp_path / "plain").stat().st_mode
 
 
 def test_what_a_killed_writer_leaves_is_removed(tmp_path):
     script = (
-        "import os, sys, pathlib; from contactstudy.files import writing\n"
-        "with writing(pathlib.Path(sys.argv[1])) as path: os.kill(os.getpid(), 9)"
+        "import os, sys, pathlib, shutil, tempfile; from contactstudy import files\n"
+        "make = tempfile.mkstemp\n"
+        "tempfile.mkstemp = lambda **names: (make(**names), os.kill(os.getpid(), 9))\n"
+        "files.write_file(pathlib.Path(sys.argv[1]), b'lost')"
     )
     command = [sys.executable, "-c", script, str(tmp_path / "one-01.nc")]
     subprocess.run(command, check=False)
     (left,) = tmp_path.iterdir()
-    with writing(tmp_path / "two.nc") as path:
-        Store(tmp_path).save("other", "0" * 16, 1)
-        assert path.exists() and not left.exists()
+    mine = tmp_path / re.sub(r"-\d+-", f"-{os.getpid()}-", left.name)  # of a writer that lives
+    mine.touch()
+    Store(tmp_path).save("other", "0" * 16, 1)
+    assert mine.exists() and not left.exists()
     subprocess.run(command, check=False)
     Store(tmp_path).save("other", "0" * 16, 2)
-    assert len(list(tmp_path.glob(".unfinished*"))) == 1  # a process looks once
+    assert len(list(tmp_path.glob(".unfinished*"))) == 2  # a process looks once
+    mine.unlink()
     remove_unfinished(tmp_path)
-    assert sorted(p.name for p in tmp_path.iterdir()) == [f"other-{'0' * 16}.json", "two.nc"]
+    assert [p.name for p in tmp_path.iterdir()] == [f"other-{'0' * 16}.json"]
 
 
 def test_one_process_at_a_time(tmp_path):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import io
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -10,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from contactstudy.arrays import Array
-from contactstudy.files import writing
+from contactstudy.files import write_file
 from contactstudy.study.axes.design import CASE, GRID, Design
 from contactstudy.study.axes.measured import Measured
 from contactstudy.study.results import SWEEP_FILE
@@ -136,13 +137,11 @@ def write_csv(groups: Mapping[str, xr.Dataset], folder: Path) -> list[Path]:
         alone = len(groups) == 1
         written.append(folder / (SWEEP_FILE if alone else f"{name}.csv"))
         columns = dict(_columns(data))
-        with (
-            writing(written[-1]) as temporary,
-            temporary.open("w", encoding="utf-8", newline="") as stream,
-        ):
-            writer = csv.writer(stream, lineterminator="\n")
-            writer.writerow([*columns])
-            writer.writerows(zip(*columns.values(), strict=True))
+        text = io.StringIO()
+        writer = csv.writer(text, lineterminator="\n")
+        writer.writerow([*columns])
+        writer.writerows(zip(*columns.values(), strict=True))
+        write_file(written[-1], text.getvalue())
     return written
 
 

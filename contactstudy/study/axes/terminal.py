@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tempfile
 from pathlib import Path
 
 from rich.box import SIMPLE
@@ -19,8 +18,7 @@ from contactstudy.study.results import StudyResults
 
 def check_swept(study: Swept) -> list[str]:
     """Number of variants and of runs that are computed for them, and the expected time."""
-    with tempfile.TemporaryDirectory() as folder:
-        plan = plan_study(study, Path(folder))
+    plan = plan_study(study, Path())
     needed = sum(len(v.pieces) for v in plan.variants.values())
     found = [
         f"{design.name}: {' x '.join(map(str, design.sizes.values()))} variants "

@@ -64,7 +64,9 @@ def test_figures_of_the_patch(full):
     files = [b["file"] for b in parts["Contact patch"]["blocks"] if "file" in b]
     (shear_row,) = [b["rows"] for b in parts["Contact patch"]["blocks"] if b["kind"] == "table"]
     assert len(shear_row) == len(shear) and shear_row[k][6] == f"{shear[k] * 1e-6:.0f}"
-    assert files[:3] == ["patch_pressure.pdf", "patch_status.pdf", "stress_below.pdf"]
+    assert files[:3] == [
+        f"figures/{name}.pdf" for name in ("patch_pressure", "patch_status", "stress_below")
+    ]
 
 
 def test_animation(full, tmp_path):

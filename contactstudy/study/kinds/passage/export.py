@@ -9,7 +9,7 @@ import numpy as np
 from contactstudy.exceptions import InputError
 from contactstudy.export.calculix import PressLoading, calculix_input
 from contactstudy.export.press_mesh import press_mesh
-from contactstudy.files import writing
+from contactstudy.files import write_file
 from contactstudy.geometry.placement import Geometry
 from contactstudy.geometry.pose import Pose
 from contactstudy.solids.recipe import CellRecipe
@@ -95,8 +95,7 @@ def export_press(
         newtons, study.solid.penalty, start, repeats=0 if mesh.symmetric else REPEATS
     )
     text = calculix_input(mesh, loading, cell.youngs_modulus, cell.poisson_ratio, header)
-    with writing(out) as temporary:
-        temporary.write_text(text, "ascii", errors="replace")
+    write_file(out, text.encode("ascii", errors="replace"))
     return (
         f"{out}: {len(mesh.nodes)} nodes, {len(mesh.elements)} elements, "
         f"{newtons:.6g} N on {length:g} m of rail"

@@ -20,7 +20,7 @@ from xml.sax.saxutils import quoteattr
 import numpy as np
 
 from contactstudy.arrays import Array
-from contactstudy.files import writing
+from contactstudy.files import write_file, writing
 from contactstudy.halfspace.pressure_field import SurfacePressure
 from contactstudy.halfspace.subsurface import SHALLOWEST, half_space_stress
 from contactstudy.solids.stress import maximum_shear, von_mises
@@ -62,13 +62,12 @@ def write_fields(results: StudyResults, out_dir: Path) -> list[Path]:
                 if mesh is None:
                     continue
                 target = folder / f"{name}_{part}_{k}.vtu"
-                with writing(target) as path:
-                    mesh.write(path, file_format="vtu")
+                with writing(target) as stream:
+                    mesh.write(stream, file_format="vtu")
                 entries.append((time, part, target.name))
                 written.append(target)
         target = folder / f"{name}.pvd"
-        with writing(target) as path:
-            path.write_text(_collection(entries), "utf-8")
+        write_file(target, _collection(entries))
         written.append(target)
     return written
 

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import csv
+import io
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from contactstudy.files import writing
+from contactstudy.files import write_file
 from contactstudy.study.axes.measured import Measured, extremes
 from contactstudy.study.kind import Cost
 from contactstudy.study.kinds.positions.kind import CSV_FILE
@@ -80,9 +81,10 @@ def write_csv(results: StudyResults, out_dir: Path) -> list[Path]:
     target = out_dir / CSV_FILE
     names = ("wheel", "position", "patch", *VARIABLES)
     units = {name: unit for name, (unit, _) in VARIABLES.items()}
-    with writing(target) as path, path.open("w", encoding="utf-8", newline="") as stream:
-        writer = csv.writer(stream, lineterminator="\n")
-        writer.writerow([f"{n} [{units[n]}]" if n in units else n for n in names])
-        for run in results.runs.values():
-            writer.writerows(zip(*(run[name].values.tolist() for name in names), strict=True))
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow([f"{n} [{units[n]}]" if n in units else n for n in names])
+    for run in results.runs.values():
+        writer.writerows(zip(*(run[name].values.tolist() for name in names), strict=True))
+    write_file(target, text.getvalue())
     return [target]

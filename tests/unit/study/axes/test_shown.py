@@ -95,7 +95,7 @@ def test_figures_and_their_captions(swept, text, said):
     assert made and said in " ".join(d.caption for d in made)
     (part,) = parts(results)
     files = [b["file"] for b in part["blocks"] if b["kind"] == "figure"]
-    assert files == [f"{d.name}.pdf" for d in made]
+    assert files == [f"figures/{d.name}.pdf" for d in made]
 
 
 def test_failed_variants_are_holes_in_the_figures(swept):
