@@ -46,7 +46,7 @@ def disk(monkeypatch):
 @pytest.mark.parametrize(
     ("reason", "told"),
     [
-        (errno.ENOSPC, "the disk is full; 5 kB needed, .* MB free"),
+        (errno.ENOSPC, "the disk is full; 5 kB needed, .*B free"),
         (errno.EDQUOT, "your quota on the disk is used up"),
         (errno.EFBIG, "it is larger than files may become here, see ulimit -f"),
         (errno.EIO, "the disk reports an error"),
