@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import ctypes
 import gc
+import math
 import os
 import sys
 from collections.abc import Iterator
@@ -42,6 +43,18 @@ def collect_garbage() -> None:
     """
     gc.collect()
     gc.freeze()  # modules and what they keep are most of it: 0.1 s a time
+
+
+def machine_memory() -> float:
+    """Memory of the machine [bytes], or what a control group allows of it; inf where unknown."""
+    try:
+        most = float(os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE"))
+    except (AttributeError, OSError, ValueError):
+        return math.inf
+    for file in ("memory.max", "memory/memory.limit_in_bytes"):
+        with contextlib.suppress(OSError, ValueError):
+            most = min(most, float(Path("/sys/fs/cgroup", file).read_text("ascii")))
+    return most
 
 
 def forget_peak_memory() -> None:

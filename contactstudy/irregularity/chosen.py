@@ -22,6 +22,7 @@ from contactstudy.validation import (
     Naming,
     Parameters,
     Unit,
+    Usual,
     When,
     by,
     complaint,
@@ -65,7 +66,7 @@ class Irregularity(Parameters):
     omega_1: Annotated[float, Unit("rad/m"), AtLeast(0), _PAPER, "of eq. (3)"] = 0.0
     omega_2: Annotated[q.Wavenumber, _PAPER, "of eq. (3)"] = 1.0
     seed: Annotated[q.CountOrZero, _GENERATED, "of the random phases"] = 1
-    terms: Annotated[q.Count, _GENERATED, "number of terms N of eq. (1)"] = 1000
+    terms: Annotated[q.Count, AtMost(100_000), _GENERATED, "number of terms N of eq. (1)"] = 1000
     band: Annotated[
         tuple[float, float], Unit("rad/m"), Above(0), _GENERATED, "lowest and highest wavenumber"
     ] = (0.08, 20.0)
@@ -80,9 +81,11 @@ class Irregularity(Parameters):
         q.Length, When("coherence", "decaying"), "l, where it is 1/e"
     ] = 3.0  # fmt: skip
     wavelength: Annotated[
-        q.Length, _SINUSOID, "of r = amplitude cos(2 pi X/wavelength + phase)"
+        q.Length, Usual(1e-3, 500.0), _SINUSOID, "of r = amplitude cos(2 pi X/wavelength + phase)"
     ] = 1.0
-    amplitude: Annotated[q.LengthOrZero, _SINUSOID, "half the height from trough to crest"] = 1e-5
+    amplitude: Annotated[
+        q.LengthOrZero, Usual(1e-9, 0.05), _SINUSOID, "half the height from trough to crest"
+    ] = 1e-5
     phase: Annotated[float, Unit("rad"), _SINUSOID, "at X = 0"] = 0.0
     file: Annotated[str, File(), _MEASURED, "CSV file with the measured level"] = ""
     measured_overlay: Annotated[

@@ -3,7 +3,17 @@
 from dataclasses import dataclass
 from typing import Annotated
 
-from contactstudy.validation import Above, AtLeast, AtMost, Key, Naming, Parameters, Unit, complaint
+from contactstudy.validation import (
+    Above,
+    AtLeast,
+    AtMost,
+    Key,
+    Naming,
+    Parameters,
+    Unit,
+    Usual,
+    complaint,
+)
 from contactstudy.validation import quantities as q
 
 
@@ -38,11 +48,11 @@ class CellRecipe(Parameters):
     ] = 0.009  # fmt: skip
     contact_centre: float = 0.0
     symmetric: bool = True
-    youngs_modulus: Annotated[q.Modulus, Key(""), "Young's modulus"] = 210e9
+    youngs_modulus: Annotated[q.Modulus, Usual(1e9, 1e12), Key(""), "Young's modulus"] = 210e9
     poisson_ratio: Annotated[
         q.PoissonRatio, Key(""), "Poisson's ratio"
     ] = 0.3  # fmt: skip
-    density: Annotated[q.Density, Key(""), "density of the steel"] = 7850.0
+    density: Annotated[q.Density, Usual(500.0, 3e4), Key(""), "density of the steel"] = 7850.0
 
     def problems(self, key: Naming) -> list[str]:
         """Sizes that do not fit each other, and fewer modes than the section has rigid motions."""

@@ -2,14 +2,14 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Annotated
 
 import numpy as np
 
 from contactstudy.arrays import Array, IntArray
 from contactstudy.track.model import Track
-from contactstudy.validation import AtLeast, Key, Naming, Parameters, Unit, complaint
+from contactstudy.validation import AtLeast, Key, Naming, Parameters, Unit, Usual, complaint
 from contactstudy.validation import quantities as q
 from contactstudy.vehicle import Vehicle
 
@@ -21,6 +21,10 @@ MOST_STEPS = 5_000_000
 """Of a run: the histories of so many take half a gigabyte."""
 
 
+FASTEST = 574.8 / 3.6
+"""Speed record of wheels on rails, 3 April 2007 [m/s]."""
+
+
 @dataclass(frozen=True)
 class Journey(Parameters):
     """A run at constant speed.
@@ -30,7 +34,9 @@ class Journey(Parameters):
 
     start: Annotated[q.LengthOrZero, Key("from"), "where the leading wheel starts"] = 6.0
     end: Annotated[q.LengthOrZero, Key("to"), "where it ends"] = 30.0
-    speed: Annotated[q.Speed, "speed"] = 300.0 / 3.6
+    speed: Annotated[q.Speed, Usual(0.1, FASTEST, 'km/h are written "300 km/h"'), "speed"] = (
+        300.0 / 3.6
+    )
     time_step: Annotated[q.Duration, "time step"] = 5e-5
     fade_in: Annotated[q.LengthOrZero, "length over which the irregularity grows"] = 3.0
     stations: Annotated[
@@ -46,8 +52,7 @@ class Journey(Parameters):
         step = min(LONGEST_STEP, wavelength / (STEPS_A_WAVE * self.speed))
         fade_in = self.fade_in if self.given("fade_in") else max(wavelength, bay)
         end = self.start + fade_in + max(3.0 * wavelength, 2.0 * bay)
-        return replace(
-            self,
+        return self.changed(
             fade_in=fade_in,
             end=self.end if self.given("end") else end,
             time_step=self.time_step if self.given("time_step") else step,
@@ -76,6 +81,10 @@ class Journey(Parameters):
             allowed = f"must be at least {duration / MOST_STEPS:.3g} s, for {MOST_STEPS} steps"
             return [complaint(key, step, allowed)]
         return []
+
+    def steps_over(self, length: float, step: float) -> float:
+        """Time steps [s] in which the wheel passes a length [m]."""
+        return length / (self.speed * step)
 
     @property
     def n_steps(self) -> int:

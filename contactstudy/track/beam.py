@@ -11,10 +11,12 @@ from contactstudy.arrays import Array, IntArray
 from contactstudy.track.discrete import AssembledTrack, pieces_at, without_held
 from contactstudy.track.hermite import BeamElement
 from contactstudy.track.inner_dofs import InnerDofs, pad_parts
-from contactstudy.track.model import Direction, Track, WinklerFoundation
+from contactstudy.track.model import Direction, DiscreteSupports, Slab, Track, WinklerFoundation
 from contactstudy.track.supports import PadRow, SupportedRail, add_supports, chain_of
-from contactstudy.validation import AtLeast, Naming, Parameters
+from contactstudy.validation import AtLeast, Naming, Parameters, complaint
 
+MOST_ELEMENTS = 400_000
+"""Of a rail: a beam of so many takes a minute and two gigabytes to assemble."""
 RailTheory = Literal["euler", "timoshenko"]
 
 
@@ -40,15 +42,40 @@ class BeamTrack(AssembledTrack, Parameters):
     _top_load: Callable[[Array], Array] | None = field(default=None, repr=False, compare=False)
 
     def problems(self, key: Naming) -> list[str]:
-        """A track on a bridge, which `track.structure` discretises."""
-        if self.track.structure is None:
+        """A track on a bridge, which `track.structure` discretises; too many elements."""
+        if self.track.structure is not None:
+            return [
+                f"{key('track')}: stands on a bridge, which one rail alone cannot; StructureTrack"
+            ]
+        if self.n_elements <= MOST_ELEMENTS:
             return []
-        return [f"{key('track')}: stands on a bridge, which one rail alone cannot; StructureTrack"]
+        allowed = (
+            f"must be at most {MOST_ELEMENTS // self.track.n_bays}, {MOST_ELEMENTS} elements in "
+            f"the {self.track.n_bays} bays of the track"
+        )
+        return [complaint(key("elements_per_bay"), self.elements_per_bay, allowed)]
 
     @property
     def n_elements(self) -> int:
         """Number of beam elements."""
         return self.elements_per_bay * self.track.n_bays
+
+    @property
+    def stiffest(self) -> float:
+        """Stiffest contact whose vibration the elements can carry away [N/m].
+
+        The shortest wave of elements of length h has k = pi/h, and an infinite Euler beam resists
+        a force that makes waves of k with ``2 sqrt(2) EI k^3`` (L. Cremer, M. Heckl and B. A. T.
+        Petersson, Structure-Borne Sound, 2005). A stiffer contact rings between wheel and element,
+        and only numerical damping ends that.
+        """
+        length = self.track.length / self.n_elements
+        return float(
+            2
+            * np.sqrt(2)
+            * self.track.rail.bending_stiffness(self.direction)
+            * (np.pi / length) ** 3
+        )
 
     @cached_property
     def element(self) -> BeamElement:
@@ -96,6 +123,15 @@ class BeamTrack(AssembledTrack, Parameters):
             return None
         return InnerDofs.of(self.track.pad_footprints, self.element, self.n_elements)
 
+    @property
+    def n_dofs_forecast(self) -> int:
+        """`n_dofs`, without assembling anything."""
+        support, below = self.track.support, 0
+        if isinstance(support, DiscreteSupports):
+            # a half sleeper moves in one direction; a node of the slab turns as well
+            below = (2 if isinstance(support.layer, Slab) else 1) * (self.track.n_bays + 1)
+        return len(self._free) + below
+
     @cached_property
     def _free(self) -> IntArray:
         """Rail dofs (w and theta of each node in turn, inner dofs) that the ends leave free."""
@@ -141,18 +177,25 @@ class BeamTrack(AssembledTrack, Parameters):
         """Average deflection over each pad, by exact integration of the shape functions."""
         n_nodal, free = 2 * self.n_elements + 2, self._free
         rows = []
+        row = np.zeros(free[-1] + 3)
         for pad, footprint in enumerate(self.track.pad_footprints):
-            row = np.zeros(free[-1] + 3)
+            touched = []
             length, total = self.element.length, footprint[1] - footprint[0]
             for e, begin, end in pad_parts(footprint, length, self.n_elements):
-                nodal = slice(2 * e, 2 * e + 4)
+                nodal = np.arange(2 * e, 2 * e + 4)
                 if end > begin:
                     row[nodal] += self.element.average_shapes(begin / length, end / length) / total
                 else:
                     row[nodal] += self.element.deflection_shapes(np.array(begin / length))
+                touched.append(nodal)
             if self._inner is not None:
                 dofs, weights = self._inner.pad_weights(pad)
                 np.add.at(row, n_nodal + dofs, weights)
-            used = np.flatnonzero(row[free])
-            rows.append(PadRow(used, row[free][used]))
+                touched.append(n_nodal + dofs)
+            at = np.unique(np.concatenate(touched))
+            place = np.searchsorted(free, at)
+            held = free[np.minimum(place, len(free) - 1)] != at
+            used = ~held & (row[at] != 0.0)
+            rows.append(PadRow(place[used], row[at[used]]))
+            row[at] = 0.0
         return rows

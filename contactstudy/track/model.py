@@ -5,6 +5,7 @@ The beam and the solid discretisation are both built from one `Track`. Values ar
 and J. H. Lin, J. Sound Vib. 270 (2004) 673, per rail seat.
 """
 
+import math
 from dataclasses import dataclass, field
 from typing import Annotated, Literal
 
@@ -21,6 +22,7 @@ from contactstudy.validation import (
     Naming,
     Parameters,
     Unit,
+    Usual,
     Variants,
     complaint,
 )
@@ -30,6 +32,9 @@ Ends = Literal["clamped", "pinned", "free"]
 
 NOMINAL_BAY = 0.6
 """m, length that is called a bay where the track has no discrete supports."""
+
+MOST_BAYS = 50_000
+"""Of a track: 30 km of sleepers."""
 
 
 def whole(ratio: float) -> bool:
@@ -41,7 +46,9 @@ def whole(ratio: float) -> bool:
 class Ballast(Parameters):
     """Spring and damper from each half sleeper to the ground."""
 
-    stiffness: Annotated[q.Stiffness, Key("ballast_stiffness"), "of the ballast"] = 137.75e6
+    stiffness: Annotated[
+        q.Stiffness, Usual(1e6, 1e10), Key("ballast_stiffness"), "of the ballast"
+    ] = 137.75e6
     damping: Annotated[q.Damping, Key("ballast_damping"), "of the ballast"] = 58.8e3
     lateral_stiffness: Annotated[
         q.Stiffness, Key("lateral_ballast_stiffness"), "of the ballast"
@@ -77,11 +84,11 @@ class DiscreteSupports(Parameters):
     track ends; the pad's whole stiffness is kept there.
     """
 
-    spacing: Annotated[q.Length, "distance of the supports"] = 0.6
-    pad_stiffness: Annotated[q.Stiffness, "of a rail pad"] = 65e6
+    spacing: Annotated[q.Length, Usual(0.2, 3.0), "distance of the supports"] = 0.6
+    pad_stiffness: Annotated[q.Stiffness, Usual(1e6, 1e10), "of a rail pad"] = 65e6
     pad_damping: Annotated[q.Damping, "of a rail pad"] = 75e3
     pad_length: Annotated[q.LengthOrZero, "length of the pad along the rail; 0 is a point"] = 0.16
-    sleeper_mass: Annotated[q.MassOrZero, "of half a sleeper"] = 125.5
+    sleeper_mass: Annotated[q.MassOrZero, Usual(5.0, 1e4), "of half a sleeper"] = 125.5
     layer: Annotated[
         Ballast | Slab,
         Variants("layer", {"ballast": Ballast, "slab": Slab}, "what lies below the sleepers"),
@@ -144,7 +151,7 @@ class Track(Parameters):
             "what carries the rail",
         ),
     ] = field(default_factory=DiscreteSupports)
-    length: Annotated[q.Length, "length of the track"] = 36.0
+    length: Annotated[q.Length, Usual(1.0, 2e4), "length of the track"] = 36.0
     ends: Annotated[Ends, "both ends of the rail"] = "clamped"
     structure: Annotated[
         Bridge | None,
@@ -167,10 +174,16 @@ class Track(Parameters):
             return self._on_bridge(self.structure, key)
         if self.support is None and self.ends == "free":
             return [complaint(key("ends"), "free", "nothing holds a rail without support")]
+        bay = self.support.spacing if isinstance(self.support, DiscreteSupports) else NOMINAL_BAY
+        if self.length > MOST_BAYS * bay:
+            allowed = f"must be at most {MOST_BAYS * bay:g} m, {MOST_BAYS} bays of {bay:g} m"
+            return [complaint(key("length"), self.length, allowed)]
         if isinstance(self.support, DiscreteSupports):
             spacing = self.support.spacing
             if not whole(self.length / spacing):
-                allowed = f"must be a whole number of support spacings of {spacing:g} m (m)"
+                bays = max(1, math.floor(self.length / spacing))
+                near = f"{bays * spacing:.10g} m or {(bays + 1) * spacing:.10g} m"
+                allowed = f"must be a whole number of support spacings of {spacing:g} m: {near}"
                 return [complaint(key("length"), self.length, allowed)]
         return []
 

@@ -5,7 +5,17 @@ from typing import Annotated, ClassVar, Literal
 
 from contactstudy.profiles.section import SectionProperties
 from contactstudy.solids.recipe import CellRecipe
-from contactstudy.validation import Above, Key, Naming, Parameters, Same, Unit, Variants, positive
+from contactstudy.validation import (
+    Above,
+    Key,
+    Naming,
+    Parameters,
+    Same,
+    Unit,
+    Usual,
+    Variants,
+    positive,
+)
 from contactstudy.validation import quantities as q
 
 Direction = Literal["Z", "Y"]
@@ -146,12 +156,19 @@ class GivenRail(Rail):
     section: SectionProperties = field(init=False)
     density: float = field(init=False)
     profile_name: str | None = field(init=False, default=None)
-    EI: Annotated[q.BendingStiffness, Key("bending_stiffness"), "bending stiffness of the rail"] = (
-        6.4155e6
-    )
-    mass: Annotated[q.MassPerLength, Key("mass_per_length"), "mass of the rail per length"] = 60.367
-    area: Annotated[float, Unit("m^2"), Above(0), "area of the rail's section"] = 76.70e-4
-    crown_radius: Annotated[q.Length, "radius of the rail's crown"] = 0.3
+    EI: Annotated[
+        q.BendingStiffness,
+        Usual(1e4, 1e10),
+        Key("bending_stiffness"),
+        "bending stiffness of the rail",
+    ] = 6.4155e6
+    mass: Annotated[
+        q.MassPerLength, Usual(5.0, 1e5), Key("mass_per_length"), "mass of the rail per length"
+    ] = 60.367
+    area: Annotated[
+        float, Unit("m^2"), Above(0), Usual(1e-4, 10.0), "area of the rail's section"
+    ] = 76.70e-4
+    crown_radius: Annotated[q.Length, Usual(0.03, 10.0), "radius of the rail's crown"] = 0.3
     shear_coefficient: Annotated[float, Above(0), "shear coefficient of the section"] = 0.4
 
     def __post_init__(self) -> None:

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import MISSING, dataclass
-from typing import Any
+from dataclasses import MISSING, dataclass, replace
+from typing import Any, Self, cast
 
 from contactstudy.exceptions import InputError
 from contactstudy.validation.definition import Parameter, parameter, parameters
@@ -54,6 +54,28 @@ class Parameters:
             return name in place.given
         default = parameter(type(self), name).default
         return default is not MISSING and getattr(self, name) != default
+
+    def changed(self, **values: Any) -> Self:
+        """Copy with other values; what the caller chose here counts as chosen there."""
+        made = replace(cast(Any, self), **values)
+        if "_place" in vars(self):
+            object.__setattr__(made, "_place", vars(self)["_place"])
+        return cast(Self, made)
+
+    def unusual(self, key: Naming | None = None) -> list[str]:
+        """Warnings of values that apply and are far from what is usual, those of variants too."""
+        key, found = key or self._naming(), list[str]()
+        for p in parameters(type(self)):
+            value = getattr(self, p.name)
+            if p.variants is not None and isinstance(value, Parameters):
+                found += value.unusual()
+            if p.usual is None or not isinstance(value, float | int) or not p.applies(self):
+                continue
+            low, high = p.usual.low, p.usual.high
+            if value and not low <= abs(value) <= high:
+                allowed = f"usual is {low:.4g} to {high:.4g} {p.unit}".rstrip()
+                found.append(complaint(key(p.name), value, f"{allowed}; {p.usual.hint}"))
+        return found
 
     def resolved(self) -> dict[str, Any]:
         """Key -> SI value of all keys that apply, as plain data."""

@@ -49,6 +49,7 @@ class Parameter:
     multiples: m.Multiples | None = None
     file: m.File | None = None
     needed: bool = False
+    usual: m.Usual | None = None
 
     @property
     def unit(self) -> str:
@@ -191,6 +192,7 @@ def _parameter(field: "dataclasses.Field[Any]", hint: Any) -> Parameter:
         multiples=found.get(m.Multiples, base.multiples),
         file=found.get(m.File, base.file),
         needed=field.default is field.default_factory is dataclasses.MISSING,
+        usual=found.get(m.Usual, base.usual),
     )
 
 

@@ -37,6 +37,15 @@ class AtMost:
 
 
 @dataclass(frozen=True)
+class Usual:
+    """Range that practice keeps to by far: beyond it a wrong unit is likely, which is warned of."""
+
+    low: float
+    high: float
+    hint: str = "is the unit right?"
+
+
+@dataclass(frozen=True)
 class Key:
     """Key in a study file, where it is not the field's name; "" if it has none."""
 

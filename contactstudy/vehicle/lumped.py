@@ -8,7 +8,7 @@ from typing import Annotated
 
 import numpy as np
 
-from contactstudy.validation import Parameters, Same
+from contactstudy.validation import Parameters, Same, Usual
 from contactstudy.validation import quantities as q
 from contactstudy.vehicle.model import Vehicle
 
@@ -20,14 +20,14 @@ GRAVITY = 9.81
 class WheelColumn(Parameters):
     """Wheel, bogie share and car share above each other."""
 
-    wheel_mass: Annotated[q.Mass, "wheel with its share of the axle"] = 890.0
-    bogie_mass: Annotated[q.Mass, "share of the bogie"] = 760.0
-    car_mass: Annotated[q.Mass, "share of the car body"] = 5219.0
-    primary_stiffness: Annotated[q.Stiffness, "wheel to bogie"] = 0.59e6
+    wheel_mass: Annotated[q.Mass, Usual(10.0, 1e4), "wheel with its share of the axle"] = 890.0
+    bogie_mass: Annotated[q.Mass, Usual(10.0, 1e5), "share of the bogie"] = 760.0
+    car_mass: Annotated[q.Mass, Usual(10.0, 1e6), "share of the car body"] = 5219.0
+    primary_stiffness: Annotated[q.Stiffness, Usual(1e3, 1e9), "wheel to bogie"] = 0.59e6
     primary_damping: Annotated[q.Damping, "wheel to bogie"] = 19.6e3
-    secondary_stiffness: Annotated[q.Stiffness, "bogie to car"] = 0.1325e6
+    secondary_stiffness: Annotated[q.Stiffness, Usual(1e3, 1e9), "bogie to car"] = 0.1325e6
     secondary_damping: Annotated[q.Damping, "bogie to car"] = 22.55e3
-    wheel_radius: Annotated[q.Length, "radius at the tape circle"] = 0.43
+    wheel_radius: Annotated[q.Length, Usual(0.05, 1.0), "radius at the tape circle"] = 0.43
 
     @property
     def static_load(self) -> float:
@@ -62,7 +62,7 @@ class BareWheel(Parameters):
     """One wheel under a constant load, its weight included."""
 
     wheel_mass: Annotated[float, Same(WheelColumn, "wheel_mass")] = WheelColumn.wheel_mass
-    static_load: Annotated[q.Force, "force on the rail at rest"] = 67.4e3
+    static_load: Annotated[q.Force, Usual(100.0, 1e6), "force on the rail at rest"] = 67.4e3
     wheel_radius: Annotated[float, Same(WheelColumn, "wheel_radius")] = WheelColumn.wheel_radius
 
     def vehicle(self) -> Vehicle:

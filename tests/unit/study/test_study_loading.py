@@ -142,11 +142,11 @@ def test_a_path_in_a_file_is_relative_to_the_file(tmp_path):
             {"irregularity": {"spectrum": "sinusoid", "wavelength": "8 mm"}}
             | {"journey": {"time_step": "50 us", "to": "12 m"}}
             | point(),
-            ["irregularity.wavelength: has waves of 0.008 m", "0.00833 m"],  # 2 x 83.3 m/s x 50 us
+            ["irregularity.wavelength: a wave of 0.008 m", "in 1.9 time"],  # 83.3 m/s x 50 us
         ),
         (
             {"irregularity": {"band": [0.08, 300.0]}} | point(time_step="0.2 ms"),
-            ["irregularity.band", "two time steps at 83.3333 m/s, 0.0333 m"],
+            ["irregularity.band", "in 1.3 time steps at 83.3333 m/s"],
         ),
         (
             {"irregularity": {"rail_defect": "corrugation", "rail_defect_wavelength": "8 mm"}}

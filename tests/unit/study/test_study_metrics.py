@@ -101,3 +101,12 @@ def test_level_differences_of_two_tones():
 def test_nothing_to_compare():
     found = study_metrics({"point": run(1e-4)}, {"point": COST}, None, 9.0)
     assert found["comparisons"] == {} and found["reference"] is None
+
+
+def test_nothing_is_compared_with_a_dynamic_part_that_is_next_to_nothing():
+    """4 sin of 67.4 kN: a difference as large would be 100 % of it."""
+    force = metrics(surface=run(1e-4, 1e-3), point=run(1e-4, 2e-3))["comparisons"]["point"][
+        "contact_force"
+    ]
+    assert force["relative_l2_dynamic"] is None and force["sprague_geers_dynamic"]["M"] is None
+    assert force["relative_l2"] == pytest.approx(5.0 / np.sqrt(2) / STATIC, rel=1e-3)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from typing import Any
 
@@ -12,6 +11,7 @@ from contactstudy.irregularity.depth_map import DepthMap
 from contactstudy.irregularity.flats import LocalDefect
 from contactstudy.profiles.wheel_file import wheel_dimensions, wheel_sections
 from contactstudy.solvers.journey import Journey
+from contactstudy.study.kinds.passage.relations import Related
 from contactstudy.study.kinds.passage.runs import PointRun, Run, SurfaceRun
 from contactstudy.study.kinds.passage.scan import ScanFiles
 from contactstudy.study.kinds.passage.solid import Solid
@@ -50,9 +50,11 @@ def combined(tables: Mapping[str, Any], runs: Mapping[str, Run]) -> list[str]:
         if track is not None:
             of_runs = made if runs else None
             problems += journey.problems_on(track, of_runs, naming(Journey, "journey"))
+        radius = 0.43 if vehicle is None else vehicle.wheel_radius
+        related = Related(journey, track, made, radius, irregularity, runs, {})
+        problems += [finding.text for finding in related.findings() if finding.wrong]
         if irregularity is not None and runs and vehicle is not None:
             problems += _defects(irregularity, journey, vehicle.wheel_radius)
-            problems += _short_waves(irregularity, journey, runs)
     if solid is None:
         return problems
     meshed = any(run.needs_solid for run in runs.values())
@@ -91,30 +93,6 @@ def _wheels(
     if irregularity is not None and irregularity.wheel_defect is not None:
         problems.append(f"irregularity.wheel_defect: {needs}, for it would be on all of them")
     return problems
-
-
-def _short_waves(
-    irregularity: Irregularity, journey: Journey, runs: Mapping[str, Run]
-) -> list[str]:
-    """Waves shorter than two time steps, which the run would take for longer ones."""
-    waves = {"rail_defect_wavelength": getattr(irregularity.rail_defect, "wavelength", math.inf)}
-    if irregularity.spectrum == "sinusoid":
-        waves["wavelength"] = irregularity.wavelength
-    if irregularity.generated:
-        waves["band"] = 2.0 * math.pi / irregularity.band[1]
-    steps = [
-        journey.time_step if run.time_step is None else run.time_step
-        for run in runs.values()
-        if run.irregularity == "study"
-    ]
-    steps = [step for step in steps if not journey.problems_of_step("", step)]
-    way = 2.0 * journey.speed * max(steps, default=0.0)
-    return [
-        f"irregularity.{key}: has waves of {wave:.3g} m; must be longer than two time steps at "
-        f"{journey.speed:g} m/s, {way:.3g} m, or the time steps shorter"
-        for key, wave in waves.items()
-        if wave < way
-    ]
 
 
 def _defects(irregularity: Irregularity, journey: Journey, radius: float) -> list[str]:

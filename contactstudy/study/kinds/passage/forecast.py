@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import lru_cache
+from dataclasses import dataclass
 from typing import Any
 
 from rich.table import Table
 
 from contactstudy.exceptions import InputError
+from contactstudy.process import machine_memory
 from contactstudy.reporter import Reporter
-from contactstudy.solids.cache import is_cached
+from contactstudy.solids.cache import CachedBody, is_cached
+from contactstudy.solids.cell import section_mesh_of
+from contactstudy.solids.recipe import CellRecipe
+from contactstudy.solids.wheel_recipe import WheelRecipe
 from contactstudy.study.kinds.passage import build, contact
 from contactstudy.study.kinds.passage.level import deviations
 from contactstudy.study.kinds.passage.roughness import irregularity_of
@@ -18,40 +22,49 @@ from contactstudy.study.kinds.passage.runs import PointRun
 from contactstudy.study.kinds.passage.schema import Study
 from contactstudy.study.kinds.passage.twins import untwinned
 from contactstudy.track.beam import BeamTrack, RailTheory
-from contactstudy.track.model import Direction, DiscreteSupports, Slab, Track
+from contactstudy.track.model import DiscreteSupports, Slab, Track
+from contactstudy.validation import raise_if
 
+_HEAD = "run", "dofs", "steps", "expected time (s)", "memory (GB)"
 # Rough costs on a core of 2020 or later, measured with the shipped studies; for a forecast only.
 START = 4.0  # s, a process with its imports
-# s, at 2 mm
-CONDENSATION = {"rail": 20.0, "wheel": 20.0, "wheel modes": 3.0, "press": 2.0, "bay": 2.0}
-WHOLE = 5.0  # how much dearer the rail's whole section is to condense
+MADE = {"wheel modes": 3.0, "press": 2.0, "bay": 2.0}  # s, at 2 mm
 POINT_STEP, POINT_STEP_PER_DOF = 20e-6, 0.05e-6  # s
 SOLID_STEP, SOLID_STEP_PER_DOF = 300e-6, 0.2e-6  # s
+TERM = 2e-9  # s, a term of the irregularity in a step
+ASSEMBLY = 0.1e-3  # s a dof of a beam
+# bytes of a process, a dof of a beam, and a value that is kept of a step
+PROCESS, DOF, KEPT = 0.3e9, 2500, 24
+CHANNELS = 12  # of a run's histories, beside stations
 
 
-def _forecast(study: Study, run: str, track: Track) -> tuple[int, int, float]:
-    """Dofs and steps of one run of a study on its `track`, and the seconds it will take, about."""
+@dataclass(frozen=True)
+class Needs:
+    """What a run or a body will need, about: dofs, steps, time [s] and memory [bytes]."""
+
+    dofs: int
+    steps: int
+    seconds: float
+    memory: float
+
+
+def _forecast(study: Study, run: str, track: Track) -> Needs:
+    """What one run of a study on its `track` will need."""
     table = study.runs[run]
     steps = build.journey(study, run).n_steps
     wheels = study.vehicle.vehicle().n_dofs
+    terms = study.irregularity.terms if study.irregularity.generated else 1
+    seconds = START + steps * terms * TERM
+    memory = PROCESS + steps * (CHANNELS + len(study.journey.stations)) * KEPT
     if isinstance(table, PointRun) and not table.needs_solid:
-        theory = "timoshenko" if table.rail == "timoshenko" else "euler"
+        theory: RailTheory = "timoshenko" if table.rail == "timoshenko" else "euler"
         beam = theory, table.elements_per_bay, table.local_compliance, table.direction
-        dofs = _beam_dofs(track, *beam) + wheels
-        return dofs, steps, START + steps * (POINT_STEP + POINT_STEP_PER_DOF * dofs)
+        dofs = BeamTrack(track, *beam).n_dofs_forecast + wheels
+        seconds += dofs * ASSEMBLY + steps * (POINT_STEP + POINT_STEP_PER_DOF * dofs)
+        return Needs(dofs, steps, seconds, memory + dofs * DOF)
     dofs = solid_dofs(study, track) + wheels
-    return dofs, steps, START + steps * (SOLID_STEP + SOLID_STEP_PER_DOF * dofs)
-
-
-@lru_cache(maxsize=32)
-def _beam_dofs(
-    track: Track,
-    theory: RailTheory,
-    elements_per_bay: int,
-    element_compliance: bool,
-    direction: Direction,
-) -> int:
-    return BeamTrack(track, theory, elements_per_bay, element_compliance, direction).n_dofs
+    seconds += steps * (SOLID_STEP + SOLID_STEP_PER_DOF * dofs)
+    return Needs(dofs, steps, seconds, memory + dofs * DOF)
 
 
 def solid_dofs(study: Study, track: Track) -> int:
@@ -74,7 +87,30 @@ def solid_dofs(study: Study, track: Track) -> int:
 def seconds(study: Study, name: str) -> float:
     """Time that a run, or its smooth twin, will take in a process that runs already."""
     owner, run = untwinned(study, name)
-    return _forecast(owner, run, build.track(owner))[2] - START
+    return _forecast(owner, run, build.track(owner)).seconds - START
+
+
+def admit(study: Study, names: Sequence[str], reporter: Reporter) -> None:
+    """Refuse runs, named as work is, that this machine's memory cannot hold."""
+    tables = dict(untwinned(study, name)[::-1] for name in names)
+    raise_if(dict.fromkeys(t for run, one in tables.items() for t in _too_large(one, run)))
+
+
+def _too_large(study: Study, run: str) -> list[str]:
+    most, told = machine_memory(), []
+    own = _forecast(study, run, build.track(study)).memory
+    needed = {f"runs.{run}": own} | {
+        f"solid.mesh_size = {study.solid.mesh_size:g} m: condensing the {b.name}": _made(b).memory
+        for b in contact.bodies(study, run)
+        if not is_cached(b)
+    }
+    for what, memory in needed.items():
+        if memory > most:
+            told.append(
+                f"{what} needs about {memory / 1e9:.3g} GB of memory; this machine has "
+                f"{most / 1e9:.3g} GB"
+            )
+    return told
 
 
 def needs(study: Study, companions: Sequence[Any], reporter: Reporter) -> list[str | Table]:
@@ -89,17 +125,22 @@ def needs(study: Study, companions: Sequence[Any], reporter: Reporter) -> list[s
     found: list[str | Table] = [_contact(study)] if study.runs else []
     if told := deviations(study.irregularity, irregularity_of(study)):
         found.append(f"standard deviation of the irregularity: {told}")
-    sizes, times = Table("run", "dofs", "steps", "expected time (s)"), [0.0]
+    sizes, times = Table(*_HEAD), [0.0]
     for one in studies:
+        admit(one, tuple(one.runs), reporter)
         for name in one.runs:
-            dofs, steps, seconds = _forecast(one, name, build.track(one))
+            need = _forecast(one, name, build.track(one))
             label = name if one is study else f"{one.name}: {name}"
-            times.append(seconds)
-            sizes.add_row(label, str(dofs), str(steps), f"{seconds:.0f}")
+            times.append(need.seconds)
+            numbers = str(need.dofs), str(need.steps), f"{need.seconds:.0f}"
+            sizes.add_row(label, *numbers, f"{need.memory / 1e9:.1f}")
     if len(times) == 1:
         return [*found, "no runs: figures of the irregularity only"]
-    seconds = max(*times, sum(times) / 2) + _condensation(studies)
+    made = _condensation(studies)
+    seconds = max(*times, sum(times) / 2) + made.seconds
     told = f"about {seconds:.0f} s with two runs at a time, figures and report not counted"
+    if made.memory:
+        told += f"; condensing rail and wheel takes up to {made.memory / 1e9:.1f} GB"
     return [*found, sizes, told]
 
 
@@ -120,13 +161,27 @@ def _contact(study: Study) -> str:
     )
 
 
-def _condensation(studies: Sequence[Study]) -> float:
-    """Seconds of condensing what the cache does not have; rail and wheel at the same time."""
+def _condensation(studies: Sequence[Study]) -> Needs:
+    """Needs of condensing what the cache does not have; rail and wheel at the same time."""
     needed = [
-        CONDENSATION[b.name] * (WHOLE if b.name == "rail" and not one.solid.half else 1)
+        _made(b)
         for one in studies
         for run in one.runs
         for b in contact.bodies(one, run)
         if not is_cached(b)
     ]
-    return max(needed, default=0.0)
+    largest = (max((getattr(n, key) for n in needed), default=0.0) for key in ("seconds", "memory"))
+    return Needs(0, 0, *largest)
+
+
+def _made(body: CachedBody[Any]) -> Needs:
+    """Needs of a body: blocks of n dofs, one a slice or plane, are factored in n^3, held in n^2."""
+    if isinstance(body.recipe, CellRecipe):
+        n, count = 3 * len(section_mesh_of(body.recipe).nodes), body.recipe.n_slices
+        return Needs(n * count, 0, 1.0 + 3e-10 * n**3 * count, 16.0 * n**2 * count)
+    if isinstance(body.recipe, WheelRecipe):
+        recipe, loaded = body.recipe, len(body.recipe.x) * len(body.recipe.y)
+        n, count = 3 * len(recipe.section().nodes), len(recipe.angles)
+        held = n**2 * count + n * loaded * len(recipe.x) + 2.0 * loaded**2
+        return Needs(n * count, 0, 1.0 + 1.1e-10 * n**3 * count, 8.0 * held)
+    return Needs(0, 0, MADE[body.name], 0.0)

@@ -13,6 +13,7 @@ from contactstudy.store import digest
 from contactstudy.study.kind import Inputs, Work
 from contactstudy.study.kinds.passage.build import journey, recipe
 from contactstudy.study.kinds.passage.placing import contact_zone, scan_meeting
+from contactstudy.study.kinds.passage.remarks import remarks
 from contactstudy.study.kinds.passage.roughness import describe
 from contactstudy.study.kinds.passage.scan import PATHS as SCAN_PATHS
 from contactstudy.study.kinds.passage.schema import IRREGULARITY, Study
@@ -57,7 +58,7 @@ def read_inputs(study: Study) -> Inputs:
         if "wheelset" in config and (digest := named_file_digest(name)):
             files[Path(name).name] = digest
             config["wheelset"][key] = Path(name).name
-    notes = described.warnings + _scans(study, config, files)
+    notes = described.warnings + remarks(study) + _scans(study, config, files)
     if "wheelset" in config and (rail_name := study.track.rail.profile_name) is not None:
         notes += tuple(n for curve in study.wheelset.curves(rail_name) for n in curve.notes)
     meshed = bool(study.runs) and study.track.rail.profile_name is not None

@@ -55,6 +55,7 @@ class PassageKind(Kind):
     check = later(f"{_HERE}.forecast:needs")
     work = later(f"{_HERE}.inputs:work")
     seconds = later(f"{_HERE}.forecast:seconds")
+    admit = later(f"{_HERE}.forecast:admit")
     before = later(f"{_HERE}.execution:condensing")
     collect = later(f"{_HERE}.twins:with_twins")
     metrics = later(f"{_HERE}.metrics:metrics")

@@ -16,7 +16,8 @@ Both signals are compared at equal wheel positions behind the fade-in; `contacts
 defines the norms. ``linf`` and ``rms`` are in the signal's SI unit. The dynamic part is what is
 left of a signal when its own value in the static start is taken off; the irregularity's part,
 when the same run on a smooth rail is taken off. A norm that does not exist,
-because a signal is zero or constant, is null.
+because a signal is zero or constant, is null; so is that of a dynamic part that is next to nothing
+in the reference (`LEAST`), which would divide by the noise of the computation.
 """
 
 from __future__ import annotations
@@ -37,6 +38,10 @@ from contactstudy.study.kinds.passage.twins import SIGNALS, SMOOTH
 
 if TYPE_CHECKING:
     import xarray as xr
+
+
+LEAST = 0.002
+"""Root mean square over that of the whole signal below which a dynamic part is next to nothing."""
 
 
 def metrics(
@@ -139,11 +144,18 @@ def _compare_signals(
             norms.at_positions(of_run[part], x_run, x),
             norms.at_positions(of_reference[part], x_reference, x),
         )
-        made[f"relative_l2_{part}"] = _number(norms.relative_l2(*pair, x))
-        made[f"sprague_geers_{part}"] = _sprague_geers(*pair, x)
+        nothing = part == "dynamic" and _rms(pair[1], x) < LEAST * _rms(b, x)
+        relative = math.nan if nothing else norms.relative_l2(*pair, x)
+        made[f"relative_l2_{part}"] = _number(relative)
+        none = dict.fromkeys(("M", "P", "C"))
+        made[f"sprague_geers_{part}"] = none if nothing else _sprague_geers(*pair, x)
         if bands and part == "dynamic":
             made["third_octave"] = level_differences(*pair, x, speed(reference))
     return made
+
+
+def _rms(a: Array, x: Array) -> float:
+    return norms.rms(a, np.zeros_like(a), x)
 
 
 def _sprague_geers(a: Any, b: Any, x: Array) -> dict[str, float | None]:

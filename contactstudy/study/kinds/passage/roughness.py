@@ -19,6 +19,7 @@ from contactstudy.study.kinds.passage.schema import Study
 from contactstudy.track.model import Direction
 
 MOST_LEFT_OUT = 0.5  # of a record's variance, by wavelengths that nobody stated
+_EVALUATIONS = 1_000_000_000  # of a term, for an estimate of what was generated
 CURVE_POINTS = 400  # of a spectrum's formula
 
 
@@ -159,6 +160,7 @@ def _estimate(table: irr.Irregularity, profile: irr.Profile) -> SpectrumCurve:
     low, high = table.band
     step = np.pi / (2.5 * high)
     length = max(4.0 * np.pi * table.terms / (high - low), 400 * step)
+    length = min(length, max(_EVALUATIONS // table.terms, 400) * step)
     values = profile(np.arange(0.0, length, step))
     estimate = irr.spectral_estimate(values, step)
     inside = (estimate.wavenumber >= low) & (estimate.wavenumber <= high)

@@ -15,6 +15,7 @@ from contactstudy.validation import (
     Naming,
     Same,
     Unit,
+    Usual,
     Variants,
     When,
     complaint,
@@ -58,7 +59,8 @@ class PointRun(Run):
     ] = "linear"
     k_r: Annotated[
         float | Literal["tangent", "secant", "hertz_tangent", "hertz_secant", "rigid"], Unit("N/m"),
-        Above(0), Multiples(("tangent", "secant", "hertz_tangent", "hertz_secant")),
+        Above(0), Usual(1e7, 1e14),
+        Multiples(("tangent", "secant", "hertz_tangent", "hertz_secant")),
         When("law", "linear"), "contact stiffness",
     ] = 1e11  # fmt: skip
     hertz_constant: Annotated[
@@ -124,6 +126,11 @@ class PointRun(Run):
         return self.integrator or ("generalised_alpha" if self.rigid else "average_acceleration")
 
     @property
+    def undamped(self) -> bool:
+        """Whether the stepper has no numerical damping."""
+        return self.stepper == "average_acceleration" or self.rho_inf > 1.0 - 1e-6
+
+    @property
     def presses(self) -> bool:
         """Whether the run needs the press of the meshed bodies."""
         return self.law_of_press or self.patch_of_press
@@ -169,8 +176,7 @@ class PointRun(Run):
         if following and self.law == "linear":
             allowed = 'must be "hertz" or "press" with patch_filter = "following"'
             problems.append(complaint(key("law"), self.law, allowed))
-        undamped = self.stepper == "average_acceleration" or self.rho_inf > 1.0 - 1e-6
-        if self.rigid and undamped:
+        if self.rigid and self.undamped:
             allowed = 'must be "generalised_alpha" with rho_inf below 1 where k_r = "rigid"'
             problems.append(complaint(key("integrator"), self.stepper, allowed))
         return problems

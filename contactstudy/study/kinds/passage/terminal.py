@@ -7,6 +7,7 @@ from rich.text import Text
 from contactstudy.study.results import StudyResults
 
 _CAPTION = "error: relative L2 of the contact force, of the total and of its dynamic part"
+_NOTHING = "; a dash where the reference has next to none"
 
 
 def summary(results: StudyResults) -> list[Table]:
@@ -14,6 +15,10 @@ def summary(results: StudyResults) -> list[Table]:
     runs, compared = results.metrics["runs"], results.metrics["comparisons"]
     table = Table(title=Text(results.title), box=SIMPLE, collapse_padding=True)
     table.caption = _CAPTION if compared else None
+    if any(
+        c.get("contact_force", {}).get("relative_l2_dynamic", 0) is None for c in compared.values()
+    ):
+        table.caption = _CAPTION + _NOTHING
     table.add_column("run", no_wrap=True)
     errors = ("error", "dynamic") if compared else ()
     for heading in ("dofs", "steps", "set-up s", "steps s", "MB", *errors):
@@ -36,4 +41,4 @@ def summary(results: StudyResults) -> list[Table]:
 def _percent(value: float | None, reference: bool) -> str:
     if reference:
         return "ref."
-    return "" if value is None else f"{100 * value:.2f} %"
+    return "–" if value is None else f"{100 * value:.2f} %"

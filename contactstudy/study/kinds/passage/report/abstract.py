@@ -10,6 +10,7 @@ from contactstudy.figures.passing_components import all_passing
 from contactstudy.figures.signals import fade_end
 from contactstudy.plot.text import capital, exact, label, number
 from contactstudy.report.quantity import grouped, percent
+from contactstudy.study.kinds.passage.metrics import LEAST
 from contactstudy.study.kinds.passage.report import rungs
 from contactstudy.study.kinds.passage.report.metrics import between, of_run
 from contactstudy.study.kinds.passage.report.tables import describe
@@ -35,6 +36,11 @@ def abstract(results: StudyResults) -> list[str]:
     if _errors(results):
         paragraphs += rungs.sentences(results) or [_verdict(results)]
         paragraphs.append(_cost(results))
+    elif results.metrics["comparisons"]:
+        paragraphs.append(
+            "The contact force of the reference hardly changes as the wheel runs: its dynamic part "
+            f"is below {100 * LEAST:g} % of it, next to which no error is given."
+        )
     for companion in results.companions:
         paragraphs += list(_companion(companion))
     return [p for p in paragraphs if p]
