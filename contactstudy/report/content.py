@@ -1,7 +1,7 @@
 """The whole report as plain data, for the template to set; what is said, a kind of study says."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 from contactstudy.plot.text import label
@@ -19,16 +19,17 @@ Content = dict[str, Any]
 def content(results: StudyResults, timings: bool) -> Content:
     """Everything that the template inserts, with figures named relative to the study's folder."""
     report = _report(results, timings)
+    chapters = list(_chapters(results, timings))
     tables = parameter_tables(results)
     data: Content = {
         "title": results.title,
         "subtitle": f"Study {label(results.name)} · contactstudy {__version__}",
         "name": results.name,
-        "abstract": _abstract(results, report),
+        "abstract": _abstract(results, report, chapters),
         "subject": [*paragraphs(results.description), *report.subject],
         "parameters": [*([report.sources] if report.sources else []), *tables],
         "results": list(report.parts),
-        "companions": list(_companions(results, timings)),
+        "companions": [_companion(chapter) for chapter in chapters],
         "provenance": _provenance(results),
         "model": report.model,
         "limits": report.limits,
@@ -56,23 +57,36 @@ def _report(results: StudyResults, timings: bool) -> Report:
     )
 
 
-def _abstract(results: StudyResults, report: Report) -> list[str]:
+@dataclass(frozen=True)
+class _Chapter:
+    """A companion, what is said of it, and the folder of its figures."""
+
+    results: StudyResults
+    report: Report
+    folder: str
+    #: Whether it accompanies the study itself, and not a companion.
+    own: bool
+
+
+def _abstract(results: StudyResults, report: Report, chapters: Sequence[_Chapter]) -> list[str]:
     """Of a study that only gathers others, what those found."""
-    if results.runs or results.swept or not results.companions:
+    if results.runs or results.swept or not chapters:
         return list(report.abstract)
-    return [
-        f"{companion.title}: {' '.join(_report(companion, False).abstract)}"
-        for companion in results.companions
-    ]
+    return [f"{c.results.title}: {' '.join(c.report.abstract)}" for c in chapters if c.own]
 
 
-def _companions(results: StudyResults, timings: bool, folder: str = "") -> Iterator[Content]:
+def _chapters(results: StudyResults, timings: bool, folder: str = "") -> Iterator[_Chapter]:
     """A chapter a companion, and a companion's companion."""
     for companion in results.companions:
-        report, own = _report(companion, timings), f"{folder}{companion.name}/"
-        parts = report.parts if report.as_companion is None else report.as_companion
-        yield {"title": companion.title, "parts": _placed(parts, own)}
-        yield from _companions(companion, timings, own)
+        inner = f"{folder}{companion.name}/"
+        yield _Chapter(companion, _report(companion, timings), inner, not folder)
+        yield from _chapters(companion, timings, inner)
+
+
+def _companion(chapter: _Chapter) -> Content:
+    report = chapter.report
+    parts = report.parts if report.as_companion is None else report.as_companion
+    return {"title": chapter.results.title, "parts": _placed(parts, chapter.folder)}
 
 
 def _placed(parts: Sequence[Part], folder: str) -> list[Part]:

@@ -35,6 +35,14 @@ SIGNALS: dict[str, tuple[str, str]] = {
 }
 """Unit and description of every history that a solver may record."""
 
+POINT_SIGNALS = (
+    "contact_force", "wheel_displacement", "wheel_acceleration", "rail_displacement",
+    "rail_acceleration", "irregularity",
+)  # fmt: skip
+"""Those of them that every run records; surface contact records more."""
+SECTION_SIGNALS = ("rail_lateral", "rail_roll")
+"""Those that only a whole section has."""
+
 
 def history_dataset(
     journey: Journey,

@@ -182,6 +182,10 @@ class Kind(ABC):
         """Tasks that a piece of work waits for; equal names are one task."""
         return ()
 
+    def histories(self, study: Any) -> Sequence[str] | None:
+        """Names of what its runs hold along one dimension; None where nobody knows before."""
+        return None
+
     def collect(self, study: Any, found: Mapping[str, Any]) -> Mapping[str, xr.Dataset]:
         """The runs of the results, from the finished pieces of work by name."""
         return found

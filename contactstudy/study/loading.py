@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from copy import deepcopy
 from dataclasses import replace
 from pathlib import Path
@@ -89,6 +90,11 @@ def load_study(
     main = main if main is not None and main.kind == kind.name else None
     given, problems = read_texts(overrides, "--set", kind.tables, kind.inner_tables)
     series, wrong = read_texts(sweep, "--sweep", {}, {})
+    wrong += [
+        f"{key}: is set ({given[key]}) and swept ({series[key]}) at once; give --set or --sweep"
+        for key in given
+        if key in series
+    ]
     return _with_axes(path, data, kind, main, (given, series), problems + wrong, quick)
 
 
@@ -126,8 +132,27 @@ def _with_axes(
     if not designs:
         return study
     made = Swept.of(study, designs, source, keep)
-    _ = made.variants  # impossible ones are refused
+    # impossible variants are refused, and histories that none of them has
+    raise_if(_unknown_histories(kind, [v.study for v in made.variants.values()], keep))
     return made
+
+
+def _unknown_histories(kind: Kind, studies: Sequence[Any], keep: Sequence[str]) -> list[str]:
+    """Complaints about histories to keep that no run of any variant has."""
+    known: dict[str, None] = {}
+    for study in studies:
+        if all(name in known for name in keep):
+            return []
+        found = kind.histories(study)
+        if found is None:
+            return []
+        known |= dict.fromkeys(found)
+    return [
+        complaint("sweep.keep", name, f"no run has this history{did_you_mean(name, known)}")
+        + f"; there are {', '.join(known)}"
+        for name in keep
+        if name not in known
+    ]
 
 
 def base_of(study: Any) -> Any:

@@ -25,6 +25,7 @@ from contactstudy.validation.metadata import (
     When,
     Written,
     by,
+    is_multiple,
     multiple,
 )
 from contactstudy.validation.tables import (
@@ -62,6 +63,7 @@ __all__ = [
     "complaint",
     "did_you_mean",
     "entries",
+    "is_multiple",
     "multiple",
     "not_negative",
     "parameter",

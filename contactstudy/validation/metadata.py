@@ -121,19 +121,26 @@ class Multiples:
 
     def read(self, value: Any) -> str | None:
         """The multiple in its one form; None if the value is none."""
-        match = _MULTIPLE.fullmatch(value) if isinstance(value, str) else None
-        if match is None or match[2] not in self.names or not 0.0 < float(match[1]) < math.inf:
+        factor, name = multiple(value) if isinstance(value, str) else (1.0, "")
+        if not is_multiple(value) or name not in self.names or not 0.0 < factor < math.inf:
             return None
-        return f"{float(match[1]):.15g} x {match[2]}"
+        return f"{factor:.15g} x {name}"
 
 
-_MULTIPLE = re.compile(r"\s*(\d+\.?\d*(?:[eE][+-]?\d+)?|\.\d+)\s*x\s*(\w+)\s*")
+NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
+"""A number without unit in a text."""
+_MULTIPLE = re.compile(rf"\s*({NUMBER})\s*x\s*([A-Za-z_]\w*)\s*")
+
+
+def is_multiple(value: Any) -> bool:
+    """Whether a value is a text like "2 x tangent"."""
+    return isinstance(value, str) and _MULTIPLE.fullmatch(value) is not None
 
 
 def multiple(value: str) -> tuple[float, str]:
     """Factor and name of a choice that may be a multiple: "2 x tangent", "tangent"."""
-    factor, x, name = value.partition(" x ")
-    return (float(factor), name) if x else (1.0, value)
+    match = _MULTIPLE.fullmatch(value)
+    return (float(match[1]), match[2]) if match else (1.0, value)
 
 
 class By:

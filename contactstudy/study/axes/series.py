@@ -8,17 +8,16 @@ from dataclasses import dataclass
 from typing import Any
 
 from contactstudy.units import Limits, UnitError, to_si
-from contactstudy.validation import Parameter, as_list
+from contactstudy.validation import Parameter, as_list, is_multiple, multiple
+from contactstudy.validation.metadata import NUMBER
 
 MOST = 20_000
 """Largest number of variants of a study."""
 
-_NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
 _RANGE = re.compile(
-    rf"(?P<first>.+?)\s+to\s+(?P<last>.+?)(?:\s+by\s+(?P<by>.+)|\s+x\s+(?P<x>{_NUMBER}))?"
+    rf"(?P<first>.+?)\s+to\s+(?P<last>.+?)(?:\s+by\s+(?P<by>.+)|\s+x\s+(?P<x>{NUMBER}))?"
 )
 _SPACED = re.compile(r"(.+?)\s*,\s*(linear|logarithmic)")
-_TIMES = re.compile(rf"(?P<factor>{_NUMBER})\s*x\s*(?P<of>[A-Za-z_]+)")
 _FORM = (
     'must be a list, or text like "1 to 50", "0 m to 7 m by 0.5 m", '
     '"20 mm to 3 m by 14, logarithmic" or "2 to 32 x 2"'
@@ -82,12 +81,12 @@ def _plain(value: Any) -> Any:
 def _placed(values: tuple[Any, ...], parameter: Parameter) -> Series:
     numbers, factors = [_number(v, parameter.limits) for v in values], set[str]()
     for k, value in enumerate(values):
-        if numbers[k] is None and isinstance(value, str) and (m := _TIMES.fullmatch(value.strip())):
-            numbers[k], factors = float(m["factor"]), factors | {m["of"]}
+        if numbers[k] is None and is_multiple(value):
+            numbers[k], of = multiple(value)
+            factors.add(of)
     texts = tuple(_text(v) for v in values)
     coordinates: tuple[Any, ...] = tuple(n for n in numbers if n is not None)
-    alike = all(isinstance(v, str) and _TIMES.fullmatch(v.strip()) for v in values)
-    mixed = bool(factors) and not (alike and len(factors) == 1)
+    mixed = bool(factors) and not (all(map(is_multiple, values)) and len(factors) == 1)
     if parameter.only_text or parameter.listed or len(coordinates) < len(values) or mixed:
         coordinates, factors = texts, set()
     unit = "" if factors or isinstance(coordinates[0], str) else parameter.unit
@@ -134,10 +133,10 @@ def _range(text: str, parameter: Parameter) -> list[Any] | None:
 
 def _ends(first: str, last: str, parameter: Parameter) -> tuple[tuple[float, float], str]:
     """Ends of a range, and what they are factors of."""
-    factors = [_TIMES.fullmatch(end.strip()) for end in (first, last)]
-    if factors[0] and factors[1] and factors[0]["of"] == factors[1]["of"]:
-        a, b = (_ratio(m["factor"]) for m in factors if m)
-        return (a, b), factors[0]["of"]
+    if is_multiple(first) and is_multiple(last):
+        (a, of), (b, other) = multiple(first), multiple(last)
+        if of == other:
+            return (a, b), of
     a, b = (to_si(end, parameter.unit) for end in (first, last))
     return (a, b), ""
 

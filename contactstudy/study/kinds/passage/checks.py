@@ -64,6 +64,7 @@ def combined(tables: Mapping[str, Any], runs: Mapping[str, Run]) -> list[str]:
         if track is not None:
             more = any(p.patch_of_press or p.bay_compliance or p.law != "linear" for p in pressed)
             problems += solid.problems_on(track, meshed or more)
+            problems += _unsupported(track, runs)
         if vehicle is not None:
             problems += _wheel(solid, vehicle.wheel_radius)
         if wheelset is not None:
@@ -93,6 +94,24 @@ def _wheels(
     if irregularity is not None and irregularity.wheel_defect is not None:
         problems.append(f"irregularity.wheel_defect: {needs}, for it would be on all of them")
     return problems
+
+
+def _unsupported(track: Track, runs: Mapping[str, Run]) -> list[str]:
+    """Contact stiffnesses that are pressed on a rail which bends as a whole.
+
+    Bending compresses the head along the rail, so that it swells by some ``nu M z^2 / 2 EI``: up to
+    all of the approach, which a press would count as stiffness of the contact.
+    """
+    if track.support is not None or track.rail.profile_name is None:
+        return []
+    return [
+        f"runs.{name}: takes its contact stiffness from the static press, but track.support ="
+        ' "none", and the bending of an unsupported rail would count as stiffness of the contact; '
+        'give k_r in N/m or as "hertz_tangent", or law = "hertz" with hertz_constant = '
+        '"closed_form"'
+        for name, run in runs.items()
+        if isinstance(run, PointRun) and run.law_of_press
+    ]
 
 
 def _defects(irregularity: Irregularity, journey: Journey, radius: float) -> list[str]:

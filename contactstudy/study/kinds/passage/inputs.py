@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -12,13 +13,17 @@ from contactstudy.profiles.wheel_file import named_file_digest
 from contactstudy.store import digest
 from contactstudy.study.kind import Inputs, Work
 from contactstudy.study.kinds.passage.build import journey, recipe
+from contactstudy.study.kinds.passage.contact import hertz
 from contactstudy.study.kinds.passage.placing import contact_zone, scan_meeting
 from contactstudy.study.kinds.passage.remarks import remarks
 from contactstudy.study.kinds.passage.roughness import describe
+from contactstudy.study.kinds.passage.runs import PointRun
 from contactstudy.study.kinds.passage.scan import PATHS as SCAN_PATHS
 from contactstudy.study.kinds.passage.schema import IRREGULARITY, Study
+from contactstudy.study.kinds.passage.touching import touched_beyond
 from contactstudy.study.kinds.passage.twins import twins, untwinned
 from contactstudy.study.kinds.passage.wheelset import PATHS as WHEELSET_PATHS
+from contactstudy.validation import multiple
 from contactstudy.vehicle import Bogie, Train
 from contactstudy.vehicle.consist import car_file
 
@@ -61,6 +66,7 @@ def read_inputs(study: Study) -> Inputs:
     notes = described.warnings + remarks(study) + _scans(study, config, files)
     if "wheelset" in config and (rail_name := study.track.rail.profile_name) is not None:
         notes += tuple(n for curve in study.wheelset.curves(rail_name) for n in curve.notes)
+    notes += touched_beyond(study) + tuple(_hertz_instead(study))
     meshed = bool(study.runs) and study.track.rail.profile_name is not None
     return Inputs(
         config,
@@ -86,6 +92,21 @@ def _cars(vehicle: dict[str, Any], files: dict[str, str]) -> None:
                     if isinstance(texts, str)
                     else [shown if old == text else old for old in vehicle[key]]
                 )
+
+
+def _hertz_instead(study: Study) -> Iterator[str]:
+    """Stiffnesses named after the press that are Hertz's, for nothing can be pressed."""
+    for name, run in study.runs.items():
+        if isinstance(run, PointRun) and run.law_of_press and not study.presses(name):
+            closed = hertz(study)
+            value = (
+                closed.secant_stiffness if "secant" in str(run.k_r) else closed.tangent_stiffness
+            )
+            yield (
+                f'runs.{name}.k_r = "{run.k_r}": is that of Hertz\'s closed form, '
+                f'{multiple(str(run.k_r))[0] * value:.4g} N/m; a rail that is "given" has no '
+                "profile to press"
+            )
 
 
 def _scans(study: Study, config: dict[str, Any], files: dict[str, str]) -> tuple[str, ...]:

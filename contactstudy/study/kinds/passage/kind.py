@@ -56,6 +56,7 @@ class PassageKind(Kind):
     work = later(f"{_HERE}.inputs:work")
     seconds = later(f"{_HERE}.forecast:seconds")
     admit = later(f"{_HERE}.forecast:admit")
+    histories = later(f"{_HERE}.twins:histories")
     before = later(f"{_HERE}.execution:condensing")
     collect = later(f"{_HERE}.twins:with_twins")
     metrics = later(f"{_HERE}.metrics:metrics")

@@ -10,6 +10,9 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from contactstudy.solvers.dataset import POINT_SIGNALS, SECTION_SIGNALS
+from contactstudy.solvers.dataset import SIGNALS as RUN_SIGNALS
+from contactstudy.study.kinds.passage.runs import SurfaceRun
 from contactstudy.study.kinds.passage.schema import Study
 
 if TYPE_CHECKING:
@@ -30,6 +33,24 @@ def twins(study: Study) -> dict[str, str]:
     if not study.smooth:
         return {}
     return {n: n + _TWIN for n, run in study.runs.items() if run.irregularity != "smooth"}
+
+
+def histories(study: Study) -> list[str]:
+    """Names of what the runs hold over time, and of surface contact along its static press.
+
+    Of several wheels there is only the time: the others have a dimension more.
+    """
+    if study.vehicle.vehicle().n_wheels > 1:
+        return ["time"]
+    surface = [r for r in study.runs.values() if isinstance(r, SurfaceRun)]
+    found = ["time", "position", *(POINT_SIGNALS if len(surface) < len(study.runs) else ())]
+    if surface:
+        section = SECTION_SIGNALS if study.solid.half else ()
+        found += [name for name in RUN_SIGNALS if name not in section]
+        found += ["press_force", "press_approach", "press_penetration"]
+    if twins(study):
+        found += [name + SMOOTH for name in SIGNALS]
+    return list(dict.fromkeys(found))
 
 
 def untwinned(study: Study, name: str) -> tuple[Study, str]:

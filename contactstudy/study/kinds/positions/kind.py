@@ -33,6 +33,7 @@ class PositionsKind(Kind):
     check = later(f"{_HERE}.check:check")
     work = later(f"{_HERE}.press:work")
     admit = later(f"{_HERE}.check:admit")
+    histories = later(f"{_HERE}.results:histories")
     collect = later(f"{_HERE}.results:collect")
     metrics = later(f"{_HERE}.results:metrics")
     drawings = later(f"{_HERE}.report:drawings")

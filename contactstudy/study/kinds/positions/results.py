@@ -32,6 +32,11 @@ def collect(
     }
 
 
+def histories(study: PositionsStudy) -> list[str]:
+    """Names of what a wheel's dataset holds of each patch."""
+    return ["position", "patch", *VARIABLES]
+
+
 def _dataset(rows: list[dict[str, Any]]) -> xr.Dataset:
     import xarray as xr
 

@@ -273,3 +273,37 @@ def test_companions_may_have_axes(law, tmp_path):
     results = run_study(load_study(path), tmp_path / "out", 1)
     assert results.companions[0].swept and (tmp_path / "out/inner/sweep.csv").is_file()
     shutil.rmtree(tmp_path / "out")
+
+
+def test_a_key_is_not_set_and_swept_at_once(law):
+    path = law('[sweep]\n"law.order" = [1, 2]\n')
+    with pytest.raises(InputError) as caught:
+        load_study(path, ["law.x=2 m"], sweep=["law.x=[1, 3]"])
+    (problem,) = caught.value.problems
+    assert problem.startswith("law.x: is set (2 m) and swept ([1, 3]) at once")
+    with pytest.raises(InputError, match=r"set .* and swept"):
+        load_study(path, {"law.x": 2.0}, sweep={"law.x": [1, 3]})
+
+
+def test_a_history_to_keep_is_looked_for_before_anything_runs():
+    """Names of point runs, of surface contact, and of smooth twins; those of no run are refused."""
+    values = {"runs.paper.k_r": "1e9 N/m"}
+    series = {"irregularity.seed": [1, 2]}
+
+    def refused(name, study):
+        with pytest.raises(InputError) as caught:
+            load_study(study, values, sweep=series | {"keep": [name]})
+        return " ".join(caught.value.problems)
+
+    for name in ("contact_force", "rail_acceleration", "contact_area", "contact_force_smooth"):
+        assert load_study("samples", values, sweep=series | {"keep": [name]}).keep == (name,)
+    said = refused("contact_forces", "samples")
+    assert 'sweep.keep = "contact_forces"' in said and "did you mean 'contact_force'" in said
+    assert "rail_lateral" not in refused("rail_roll", "samples").partition("there are")[2]
+
+
+def test_the_histories_of_positions_are_known():
+    series = {"positions.load": ["9 kN", "10 kN"], "keep": ["approach"]}
+    assert load_study("manchester", sweep=series).keep == ("approach",)
+    with pytest.raises(InputError, match="no run has this history"):
+        load_study("manchester", sweep=series | {"keep": ["contact_force"]})
