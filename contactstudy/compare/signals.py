@@ -18,6 +18,20 @@ def values(run: xr.Dataset, name: str) -> Array:
     return np.asarray(data.isel(wheel=0) if "wheel" in data.dims else data, dtype=np.float64)
 
 
+WITHOUT_STATIC = ("wheel_displacement",)
+"""Signals that are compared from their values at rest on.
+
+Eq. (5) puts the static load on the rail. So a linear spring carries the dynamic part alone, and its
+wheel stands higher than that of a nonlinear law by the static approach: that is where the count
+starts, and no difference between the models.
+"""
+
+
+def at_rest(run: xr.Dataset, name: str) -> Array:
+    """Value (...,) in SI units in the static start, of each wheel."""
+    return np.asarray(run[name].values, dtype=np.float64)[..., 0]
+
+
 def position(run: xr.Dataset) -> Array:
     """Position (time,) along the track in m."""
     return values(run, "position")

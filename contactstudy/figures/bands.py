@@ -5,12 +5,14 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, NullLocator
 
+from contactstudy.arrays import BoolArray
+from contactstudy.compare.bands import CONTENT, least_content
 from contactstudy.compare.signals import speed, values
 from contactstudy.figures.signals import compared, fade_end, has_signal, styles
 from contactstudy.irregularity.estimate import ThirdOctaves, third_octave_levels
 from contactstudy.plot.drawing import Drawing
-from contactstudy.plot.style import BLACK, figure_legend, new_figure
-from contactstudy.plot.text import exact, label, number
+from contactstudy.plot.style import BLACK, SHADE, figure_legend, new_figure
+from contactstudy.plot.text import exact, label, listing, number
 from contactstudy.study.results import StudyResults
 
 HIGHEST = 2000.0  # Hz
@@ -52,9 +54,14 @@ def level_pairs(results: StudyResults) -> dict[str, tuple[ThirdOctaves, ThirdOct
                 (theirs, values(run, SIGNAL)[0]),
             )
         ]
-        if levels[0].centre.size:
+        if levels[0].centre.size and has_content(levels[0]).any():
             pairs[name] = (levels[0], levels[1])
     return pairs
+
+
+def has_content(levels: ThirdOctaves) -> BoolArray:
+    """Bands (n,) in which the reference holds enough to be compared."""
+    return np.asarray(levels.mean_square > least_content(levels.mean_square), dtype=bool)
 
 
 def _draw(results: StudyResults, pairs: dict[str, tuple[ThirdOctaves, ThirdOctaves]]) -> Figure:
@@ -65,18 +72,24 @@ def _draw(results: StudyResults, pairs: dict[str, tuple[ThirdOctaves, ThirdOctav
     named = styles(results)
     style = named[str(results.reference)]
     text = f"{label(str(results.reference))} (reference)"
-    top.plot(first.centre, first.level, marker=style.marker, ms=3, label=text, **style.line)
+    top.plot(
+        first.centre, first.level, marker=style.marker, ms=3, label=text, zorder=3, **style.line
+    )
     for name, (ours, theirs) in pairs.items():
         style = named[name]
         marks = {"marker": style.marker, "ms": 3, **style.line}
         top.plot(theirs.centre, theirs.level, label=label(name), **marks)
-        with np.errstate(invalid="ignore"):
-            difference = theirs.level - ours.level
-        below.plot(theirs.centre, difference, **marks)
-    highest = max(float(t.level.max()) for pair in pairs.values() for t in pair)
-    lowest = min(
-        float(t.level[np.isfinite(t.level)].min()) for pair in pairs.values() for t in pair
-    )
+        shown = has_content(ours) & np.isfinite(theirs.level)
+        below.plot(theirs.centre[shown], theirs.level[shown] - ours.level[shown], **marks)
+    empty = first.centre[~has_content(first)]
+    if empty.size:
+        # where the reference has content is one stretch but for holes, which are no bands' edge
+        behind = first.centre[has_content(first)].max()
+        for axes in (top, below):
+            axes.axvspan(behind * 10**0.05, first.centre[-1] * 10**0.05, color=SHADE, lw=0)
+    finite = [t.level[np.isfinite(t.level)] for pair in pairs.values() for t in pair]
+    highest = max(float(level.max(initial=-np.inf)) for level in finite)
+    lowest = min(float(level.min(initial=np.inf)) for level in finite)
     top.set_ylim(max(lowest, highest - SHOWN_RANGE) - 3, highest + 5)
     top.set_ylabel("Force level (dB re 1 N)")
     below.set(xlabel="Third-octave band centre (Hz)", ylabel="Difference (dB)", xscale="log")
@@ -105,17 +118,27 @@ def _caption(results: StudyResults, pairs: dict[str, tuple[ThirdOctaves, ThirdOc
         f"their differences from {label(str(results.reference))} (bottom), at "
         f"{exact(round(v * 3.6, 3))} km/h."
     )
-    parts = []
+    parts, own = [], []
     for name, (ours, theirs) in pairs.items():
-        # Bands that carry nothing say nothing about the models.
-        louder = np.maximum(ours.level, theirs.level)
-        heard = louder > louder.max() - SHOWN_RANGE / 2
-        difference = theirs.level[heard] - ours.level[heard]
-        k = int(np.argmax(np.abs(difference)))
-        parts.append(
-            f"{label(name)} {number(difference[k], 2)} dB at {ours.nominal[heard][k]:g} Hz"
+        heard = has_content(ours) & np.isfinite(theirs.level)
+        if heard.any():
+            difference = theirs.level[heard] - ours.level[heard]
+            k = int(np.argmax(np.abs(difference)))
+            parts.append(
+                f"{label(name)} {number(difference[k], 2)} dB at {ours.nominal[heard][k]:g} Hz"
+            )
+        else:
+            parts.append(f"{label(name)} has no band in common")
+        spurious = ~has_content(ours) & (theirs.mean_square > least_content(ours.mean_square))
+        if spurious.any():
+            k = int(np.argmax(np.where(spurious, theirs.mean_square, 0.0)))
+            own.append(f"{label(name)} ({theirs.level[k]:.0f} dB at {theirs.nominal[k]:g} Hz)")
+    told = [text, f"Largest differences: {', '.join(parts)}."]
+    if not all(has_content(ours).all() for ours, _ in pairs.values()):
+        told.append(
+            f"Bands in which the reference lies more than {CONTENT:g} dB below its highest (shaded "
+            "at the end) hold nothing to compare."
         )
-    return (
-        f"{text} Largest differences in bands that reach to within {SHOWN_RANGE / 2:g} dB of the "
-        f"highest level: {', '.join(parts)}."
-    )
+    if own:
+        told.append(f"What is louder there is the model's own: {listing(own)}.")
+    return " ".join(told)

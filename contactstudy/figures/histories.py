@@ -6,22 +6,36 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from contactstudy.compare.signals import position, values
+from contactstudy.arrays import Array
+from contactstudy.compare.signals import WITHOUT_STATIC, position
 from contactstudy.figures.signals import (
     SIGNALS,
     Signal,
     compared,
     fade_end,
+    from_rest,
     has_signal,
     styles,
     wheel_note,
 )
 from contactstudy.plot.drawing import Drawing
-from contactstudy.plot.style import BLACK, SHADE, figure_legend, new_figure
+from contactstudy.plot.style import BLACK, SHADE, LineStyle, figure_legend, new_figure
 from contactstudy.plot.text import label, number
 from contactstudy.study.results import StudyResults
 
 ZOOM_LENGTH = 1.8  # m, three bays of the usual 0.6 m
+EXPLAINED = (
+    "Figures of signals show all runs over each other (top), their differences from the reference "
+    "(middle), and the stretch around the largest difference enlarged (bottom). The fade-in is "
+    "shaded. A pale band is the range of a run that swings faster than lines can show."
+)
+"""What holds for all of these figures."""
+_CELLS = 160
+"""Parts of the way in each of which a band shows the range of a run that swings quickly."""
+_QUICK = 0.3
+"""A run swings quickly if the median range in such a part is more than this of all its range."""
+_LOUD = 2.5
+"""So many times the next largest difference, at most, the panel of differences shows."""
 
 
 def drawings(results: StudyResults) -> list[Drawing]:
@@ -36,7 +50,7 @@ def drawings(results: StudyResults) -> list[Drawing]:
 
 
 def _draw(results: StudyResults, signal: Signal) -> Figure:
-    figure = new_figure(4.05)
+    figure = new_figure(3.9)
     grid = figure.add_gridspec(3, 1, height_ratios=[1.1, 1.0, 1.0])
     whole = figure.add_subplot(grid[0])
     below = figure.add_subplot(grid[1], sharex=whole)
@@ -52,8 +66,9 @@ def _draw(results: StudyResults, signal: Signal) -> Figure:
     _limit_to_view(zoom, low, high)
     whole.axvspan(low, high, facecolor="none", edgecolor=BLACK, lw=0.5, ls=":")
     whole.tick_params(labelbottom=False)
-    whole.set_ylabel(f"{signal.axis}\n({signal.unit})")
-    zoom.set_ylabel(f"{signal.axis}\n({signal.unit})")
+    rest = "\nfrom rest" if signal.name in WITHOUT_STATIC else ""
+    whole.set_ylabel(f"{signal.axis}{rest}\n({signal.unit})")
+    zoom.set_ylabel(f"{signal.axis}{rest}\n({signal.unit})")
     below.set_ylabel(f"Difference\n({signal.unit})")
     below.set_xlabel("Position X of the wheel (m)")
     zoom.set_xlabel("Position X of the wheel (m), dotted stretch enlarged")
@@ -66,20 +81,56 @@ def _curves(axes: Axes, results: StudyResults, signal: Signal) -> None:
     for name, style in styles(results).items():
         run = results.runs[name]
         text = label(name) + (" (reference)" if name == results.reference else "")
-        y = values(run, signal.name) * signal.scale
-        order = 2.0 if name == results.reference else 2.5
+        y = from_rest(run, signal.name) * signal.scale
+        order = 3.0 if name == results.reference else 2.5
         axes.plot(position(run), y, label=text, zorder=order, **style.line)
     axes.margins(x=0)
 
 
 def _differences(axes: Axes, results: StudyResults, signal: Signal) -> None:
+    """The quiet runs over the loud ones."""
     axes.axhline(0.0, color=BLACK, lw=0.5)
-    for name, style in styles(results).items():
-        if name == results.reference:
-            continue
-        x, ours, theirs = compared(results, name, signal.name)
-        axes.plot(x, (theirs - ours) * signal.scale, **style.line)
+    found = {}
+    for name in results.runs:
+        if name != results.reference:
+            x, ours, theirs = compared(results, name, signal.name)
+            found[name] = x, (theirs - ours) * signal.scale
+    loud_first = sorted(found, key=lambda name: -float(np.abs(found[name][1]).max()))
+    for k, name in enumerate(loud_first):
+        _difference(axes, *found[name], styles(results)[name], 2.0 + 0.01 * k)
+    limit = shown_limit([float(np.abs(found[name][1]).max()) for name in loud_first])
+    if limit is not None:
+        axes.set_ylim(-limit, limit)
     axes.margins(x=0)
+
+
+def _difference(axes: Axes, x: Array, y: Array, style: LineStyle, order: float) -> None:
+    if not swings_quickly(y):
+        axes.plot(x, y, zorder=order, **style.line)
+        return
+    edges = np.linspace(0, len(y), _CELLS + 1).astype(int)[:-1]
+    low, high = np.minimum.reduceat(y, edges), np.maximum.reduceat(y, edges)
+    middle = x[np.minimum(edges + len(y) // (2 * _CELLS), len(x) - 1)]
+    axes.fill_between(middle, low, high, color=style.color, alpha=0.35, lw=0, zorder=order)
+
+
+def swings_quickly(y: Array) -> bool:
+    """Whether a difference (n,) swings through much of its range in a small part of the way."""
+    if len(y) < 4 * _CELLS or not np.ptp(y) > 0.0:
+        return False
+    edges = np.linspace(0, len(y), _CELLS + 1).astype(int)[:-1]
+    ranges = np.maximum.reduceat(y, edges) - np.minimum.reduceat(y, edges)
+    return bool(np.median(ranges) > _QUICK * np.ptp(y))
+
+
+def shown_limit(largest: list[float]) -> float | None:
+    """Where the panel of differences ends, given the largest of each run, falling; None: nowhere.
+
+    One run that is much louder than all others would leave them a line.
+    """
+    if len(largest) < 2 or not largest[1] > 0.0 or largest[0] <= _LOUD * largest[1]:
+        return None
+    return 0.5 * _LOUD * largest[1]
 
 
 def _shade_fade(axes: Axes, results: StudyResults, end: float) -> None:
@@ -117,17 +168,13 @@ def _limit_to_view(axes: Axes, low: float, high: float) -> None:
 def _caption(results: StudyResults, signal: Signal) -> str:
     reference = str(results.reference)
     start = fade_end(results)
-    y = values(results.runs[reference], signal.name)
+    y = from_rest(results.runs[reference], signal.name)
     y = y[position(results.runs[reference]) >= start] * signal.scale
-    text = (
-        f"{signal.label} of all runs over each other (top), their differences from "
-        f"{label(reference)} (middle), and enlarged where the largest difference occurs (bottom). "
-        "After the fade-in"
-    )
-    text += " (shaded)" if start > position(results.runs[reference])[0] else ""
-    text += (
-        f" the reference lies between {number(y.min(), 4)} and {number(y.max(), 4)} {signal.unit}; "
-    )
+    rest = ", counted from rest" if signal.name in WITHOUT_STATIC else ""
+    told = [
+        f"{signal.label}{rest}. Behind the fade-in {label(reference)} lies between "
+        f"{number(y.min(), 4)} and {number(y.max(), 4)} {signal.unit}."
+    ]
     largest = []
     for name in results.runs:
         if name != reference:
@@ -135,11 +182,19 @@ def _caption(results: StudyResults, signal: Signal) -> str:
             largest.append((float(np.max(np.abs(theirs - ours))) * signal.scale, name))
     largest.sort()
     if len(largest) > 1:
-        text += (
-            f"the largest difference is smallest for {label(largest[0][1])} "
+        told.append(
+            f"The largest difference is smallest for {label(largest[0][1])} "
             f"({number(largest[0][0])} {signal.unit}) and largest for {label(largest[-1][1])} "
             f"({number(largest[-1][0])} {signal.unit})."
         )
     elif largest:
-        text += f"{label(largest[0][1])} differs by at most {number(largest[0][0])} {signal.unit}."
-    return text.removesuffix("; ") + wheel_note(results)
+        told.append(
+            f"{label(largest[0][1])} differs by at most {number(largest[0][0])} {signal.unit}."
+        )
+    whole = sorted(
+        (-float(np.abs(np.subtract(*compared(results, n, signal.name)[1:])).max()), n)
+        for _, n in largest
+    )
+    if shown_limit([-size for size, _ in whole]) is not None:
+        told.append(f"{label(whole[0][1])} goes beyond the panel of differences.")
+    return " ".join(told) + wheel_note(results)

@@ -71,15 +71,19 @@ def patches_of(results: StudyResults, *fields: str) -> dict[str, ShownPatch]:
     return {name: patch for name, patch in found.items() if patch is not None}
 
 
-def whole_grid(run: xr.Dataset, field: Array) -> tuple[Array, Array, Array]:
+def whole_grid(
+    run: xr.Dataset, field: Array, at: tuple[str, str] = ("point_x", "point_y")
+) -> tuple[Array, Array, Array]:
     """Grid lines (n,), (m,) in mm and a field (k, points) on them, (k, n, m).
 
-    Both halves of a symmetric model.
+    Both halves of a symmetric model. `at` names the points' coordinates.
     """
-    x, y = (np.unique(np.asarray(run[name].values)) for name in ("point_x", "point_y"))
+    x, y = (np.unique(np.asarray(run[name].values)) for name in at)
     grid = field.reshape(-1, len(x), len(y))
     if run["point_y"].attrs.get("symmetric", y[0] >= -1e-9):
-        y, grid = np.r_[-y[:0:-1], y], np.concatenate([grid[:, :, :0:-1], grid], axis=2)
+        rest = 1 if y[0] < 1e-9 else 0  # points on the plane of symmetry have no mirror image
+        mirrored = grid[:, :, rest:][:, :, ::-1]
+        y, grid = np.r_[-y[rest:][::-1], y], np.concatenate([mirrored, grid], axis=2)
     return x * 1e3, y * 1e3, grid
 
 
@@ -133,15 +137,26 @@ def _map(patch: ShownPatch, hertz: HertzPatch | None) -> Figure:
 
 
 def _field(axes: Axes, x: Array, y: Array, p: Array) -> ScalarMappable:
-    """Cells about the nodes where these form a grid, else interpolated between them."""
+    """The bilinear field between nodes that form a grid, as in the elements; else by triangles."""
     gx, ix = np.unique(np.round(x, 6), return_inverse=True)
     gy, iy = np.unique(np.round(y, 6), return_inverse=True)
     if gx.size * gy.size == x.size:
         grid = np.full((gy.size, gx.size), np.nan)
-        grid[iy, ix] = np.where(p > 0, p, np.nan)  # no colour where nothing touches
-        return axes.pcolormesh(gx, gy, grid, cmap="cividis_r", vmin=0, shading="nearest")
+        grid[iy, ix] = p
+        fine_x, fine_y, fine = bilinear(gx, gy, grid)
+        shown = np.where(fine > 0, fine, np.nan)  # no colour where nothing touches
+        return axes.pcolormesh(fine_x, fine_y, shown, cmap="cividis_r", vmin=0, shading="nearest")
     levels = np.linspace(0, p.max(), 13)
     return axes.tricontourf(x, y, p, levels=levels, cmap="cividis_r")
+
+
+def bilinear(x: Array, y: Array, grid: Array, parts: int = 8) -> tuple[Array, Array, Array]:
+    """A field (m, n) on grid lines (n,), (m,), with so many parts between two of them."""
+    fine = [
+        np.interp(np.arange((len(u) - 1) * parts + 1) / parts, np.arange(len(u)), u) for u in (x, y)
+    ]
+    along = np.array([np.interp(fine[0], x, row) for row in grid])
+    return fine[0], fine[1], np.array([np.interp(fine[1], y, column) for column in along.T]).T
 
 
 def _cuts(axes: Axes, x: Array, y: Array, p: Array, hertz: HertzPatch | None, half: float) -> None:

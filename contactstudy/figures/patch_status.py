@@ -1,4 +1,4 @@
-"""What touches: contact status of the tread nodes, and the gap around the patch."""
+"""What touches: which contact points do, and the gap around the patch."""
 
 from dataclasses import dataclass
 
@@ -8,40 +8,47 @@ from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch as Swatch
 
-from contactstudy.arrays import Array
-from contactstudy.figures.patch import ShownPatch, patches_of, whole_grid
+from contactstudy.arrays import Array, BoolArray
+from contactstudy.figures.patch import ShownPatch, bilinear, patches_of, whole_grid
 from contactstudy.plot.drawing import Drawing
 from contactstudy.plot.style import BLACK, BLUE, SHADE, SKY, map_axes, new_figure
 from contactstudy.plot.text import exact, label, number
 from contactstudy.study.results import StudyResults
 
 _GAPS = (5.0, 10.0, 20.0, 50.0)  # µm
-_NAMES = ("open", "up to half of its area in contact", "in contact")
+_POINTS = ("contact_x", "contact_y")
 
 
 @dataclass(frozen=True)
 class Status:
-    """Nodal fields of one instant on the whole patch.
+    """Fields of one instant on the whole patch.
 
     Attributes
     ----------
     x, y : (n,), (m,) array
-        Grid lines relative to the wheel, mm.
-    status : (n, m) array
-        Part of the node's area whose points are in contact.
+        Grid lines of the tread nodes relative to the wheel, mm.
+    pressed : (n, m) array of bool
+        Nodes that carry pressure.
     gap : (n, m) array
-        µm; negative: penetration.
+        At the nodes, µm; negative: penetration.
+    points_x, points_y : (k,), (l,) array
+        Grid lines of the contact points, mm.
+    closed : (k, l) array of bool
+        Contact points that touch.
     """
 
     x: Array
     y: Array
-    status: Array
+    pressed: BoolArray
     gap: Array
+    points_x: Array
+    points_y: Array
+    closed: BoolArray
 
 
 def drawings(results: StudyResults) -> list[Drawing]:
     """Contact status of each run that has stored it."""
-    found = patches_of(results, "contact_status")
+    found = patches_of(results, "contact_status", "contact_pressure")
 
     def made(name: str, patch: ShownPatch) -> Drawing:
         status = status_of(results.runs[name], patch.instant)
@@ -54,29 +61,35 @@ def drawings(results: StudyResults) -> list[Drawing]:
 
 def status_of(run: xr.Dataset, instant: int) -> Status:
     """Status and gap at one of a run's instants, both halves of a symmetric model."""
-    fields = [run[name].isel(instant=instant).values for name in ("contact_status", "gap")]
-    x, y, (status, gap) = whole_grid(run, np.array(fields))
-    return Status(x, y, status, gap * 1e6)
+    fields = [run[name].isel(instant=instant).values for name in ("pressure", "gap")]
+    x, y, (pressure, gap) = whole_grid(run, np.array(fields))
+    own = run["contact_pressure"].isel(instant=instant).values
+    points_x, points_y, (at_points,) = whole_grid(run, own, _POINTS)
+    return Status(x, y, pressure > 0, gap * 1e6, points_x, points_y, at_points > 0)
 
 
 def _draw(status: Status) -> Figure:
     figure = new_figure(2.9, equal_axes=True)
     left, right = figure.subplots(1, 2, sharey=True)
-    # between Gauss points a node well inside the patch may have one that is open
-    kind = np.where(status.status > 0.5 + 1e-9, 2, np.where(status.status > 0, 1, 0))
-    colours = (SHADE, SKY, BLUE)
     left.pcolormesh(
-        status.x, status.y, kind.T, cmap=ListedColormap(colours), vmin=-0.5, vmax=2.5,
+        status.points_x, status.points_y, status.closed.T.astype(float),
+        cmap=ListedColormap([SHADE, BLUE]), vmin=-0.5, vmax=1.5,
         shading="nearest", edgecolors="white", linewidth=0.3,
     )  # fmt: skip
-    swatches = [Swatch(color=c, label=n) for c, n in zip(colours, _NAMES, strict=True)]
+    swatches = [
+        Swatch(color=SHADE, label="open"),
+        Swatch(color=BLUE, label="touching"),
+        Swatch(color=SKY, label="under pressure at the nodes"),
+    ]
     figure.legend(handles=swatches, loc="outside upper center", ncols=3)
-    lines = right.contour(
-        status.x, status.y, status.gap.T, levels=_GAPS, colors=BLACK, linewidths=0.7
+    x, y, gap = bilinear(status.x, status.y, status.gap.T)
+    _, _, pressed = bilinear(status.x, status.y, status.pressed.T.astype(float))
+    right.pcolormesh(
+        x, y, np.where(pressed > 0, 1.0, np.nan), cmap=ListedColormap([SKY]), shading="nearest"
     )
+    lines = right.contour(x, y, gap, levels=_GAPS, colors=BLACK, linewidths=0.7)
     right.clabel(lines, fmt="%g µm", fontsize=7)
-    right.contourf(status.x, status.y, status.status.T, levels=[0.5, 2.0], colors=[SKY])
-    for ax, text in ((left, "Contact status of the nodes"), (right, "Gap around the patch")):
+    for ax, text in ((left, "Contact points"), (right, "Gap around the patch")):
         ax.set_xlim(status.x[0], status.x[-1])
         ax.set_ylim(status.y[0], status.y[-1])
         map_axes(ax, "Along the rail (mm)")
@@ -90,10 +103,11 @@ def _caption(name: str, run: xr.Dataset, patch: ShownPatch, status: Status) -> s
     nodal = np.asarray(run["contact_status"].values)[patch.instant]
     deepest = max(-float(status.gap.min()), 0.0)
     return (
-        f"Contact of the run {label(name)} at X = {exact(patch.position)} m: status of the tread "
-        "nodes by the part of their area whose points are in contact (left), and the gap around "
-        "the patch (right, more than half in contact shaded). The points in contact stand for "
-        f"{number(float(area @ nodal) * 1e6)} mm², less than the patch where single points within "
-        "it are open; the largest penetration at a node is "
+        f"Contact of the run {label(name)} at X = {exact(patch.position)} m: the contact "
+        "points, four to a facet (left), and the gap around the patch with the part under pressure "
+        "as in the map of pressure (right). The points in contact stand for "
+        f"{number(float(area @ nodal) * 1e6)} mm². That is less than the patch, because single "
+        "points within it are open, and it jumps as points come and go: the contact area of a run "
+        "is taken from the gap around the patch. The largest penetration at a node is "
         f"{number(deepest, 2)} µm."
     )

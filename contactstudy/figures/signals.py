@@ -7,7 +7,7 @@ import xarray as xr
 
 from contactstudy.arrays import Array
 from contactstudy.compare import norms
-from contactstudy.compare.signals import position, values
+from contactstudy.compare.signals import WITHOUT_STATIC, position, values
 from contactstudy.plot.style import LineStyle, run_styles
 from contactstudy.study.results import StudyResults
 
@@ -57,16 +57,23 @@ def compared(
 ) -> tuple[Array, Array, Array]:
     """Return positions (k,) in m, the reference's signal (k,) there, and that of the run `name`.
 
-    Taken as the norms take them: at equal positions of the leading wheel, from `start` [m] on.
+    Taken as the norms take them: at equal positions of the leading wheel, from `start` [m] on, and
+    counted from rest where they do that.
     """
     reference, run = results.runs[str(results.reference)], results.runs[name]
     x_reference, x_run = position(reference), position(run)
     x = norms.common_positions(x_run, x_reference, start)
     return (
         x,
-        norms.at_positions(values(reference, signal), x_reference, x),
-        norms.at_positions(values(run, signal), x_run, x),
+        norms.at_positions(from_rest(reference, signal), x_reference, x),
+        norms.at_positions(from_rest(run, signal), x_run, x),
     )
+
+
+def from_rest(run: xr.Dataset, signal: str) -> Array:
+    """A signal (time,) as it is compared: less its value at rest where the norms take that off."""
+    found = values(run, signal)
+    return found - found[0] if signal in WITHOUT_STATIC else found
 
 
 def wheel_note(results: StudyResults) -> str:

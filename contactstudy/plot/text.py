@@ -20,6 +20,11 @@ def capital(text: str) -> str:
     return text if text[1:2] == "_" else text[:1].upper() + text[1:]
 
 
+def listing(parts: list[str]) -> str:
+    """One sentence's enumeration: "a", "a and b", "a, b and c"."""
+    return parts[0] if len(parts) == 1 else f"{', '.join(parts[:-1])} and {parts[-1]}"
+
+
 def number(value: float, digits: int = 3) -> str:
     """`value` to `digits` significant digits in plain text with a typographic minus.
 

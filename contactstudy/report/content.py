@@ -26,6 +26,7 @@ def content(results: StudyResults, timings: bool) -> Content:
         "subtitle": f"Study {label(results.name)} · contactstudy {__version__}",
         "name": results.name,
         "abstract": _abstract(results, report, chapters),
+        "conclusion": [] if results.swept else list(report.conclusion),
         "subject": [*paragraphs(results.description), *report.subject],
         "parameters": [*([report.sources] if report.sources else []), *tables],
         "results": list(report.parts),
@@ -35,7 +36,12 @@ def content(results: StudyResults, timings: bool) -> Content:
         "limits": report.limits,
     }
     parts = [*data["results"], *(p for c in data["companions"] for p in c["parts"])]
-    texts = [*data["subject"], *data["parameters"], *(b for p in parts for b in p["blocks"])]
+    texts = [
+        *data["conclusion"],
+        *data["subject"],
+        *data["parameters"],
+        *(b for p in parts for b in p["blocks"]),
+    ]
     cites = any("cite" in part for b in texts if b["kind"] == "text" for part in b["parts"])
     return data | {"cites": cites or report.model != ""}
 

@@ -17,6 +17,7 @@ from contactstudy.solvers.passage import Passage
 from contactstudy.solvers.patch_fields import (
     node_coordinates,
     node_fields,
+    point_fields,
     stress_variables,
     surface_of,
 )
@@ -119,6 +120,7 @@ class _Instants(KeptStates[_Contact]):
             points, [k.patch.forces for k in kept], [k.patch.gap for k in kept], dim
         )
         pressure = np.asarray(fields["pressure"].values)
+        fields |= point_fields(points, [k.patch.forces for k in kept], dim)
         poisson_ratio = self.coupling.track.recipe.poisson_ratio
         section = self.coupling.section(self.kept[0][0])
         moved = wheel.section_displacement(kept[0].patch.forces, kept[0].wheel)
@@ -140,9 +142,9 @@ class Instants(AtPositions):
     """Keeps the contact at the steps nearest to positions of the wheel [m].
 
     Surface contact only; the dataset gets `pressure`, `gap` and `contact_status`
-    (instant, point) at the tread nodes, the largest stresses below the patch, `von_mises` and
-    `maximum_shear` (instant) with `_depth`, `_x` and `_y`, and the deformed sections of wheel
-    and rail at the first instant.
+    (instant, point) at the tread nodes, `contact_pressure` (instant, contact_point) at the contact
+    points, the largest stresses below the patch, `von_mises` and `maximum_shear` (instant) with
+    `_depth`, `_x` and `_y`, and the deformed sections of wheel and rail at the first instant.
     """
 
     key: ClassVar = "pressure_at"

@@ -89,6 +89,29 @@ def node_fields(
     }
 
 
+def point_fields(
+    points: ContactPoints, forces: Sequence[Array], dim: str
+) -> dict[str, xr.Variable]:
+    """Pressure at the contact points themselves, and where these are.
+
+    Four Gauss points a facet cannot all follow the nodes, so single ones inside the patch are
+    open: their pressures scatter about the nodes', and show which of them touch.
+
+    Returns
+    -------
+    dict of str to xarray.Variable
+        `contact_pressure` (dim, contact_point), `contact_x` and `contact_y` (contact_point,).
+    """
+    at, where = ("contact_point",), "of the contact points"
+    return {
+        "contact_x": _variable(at, points.x_of_points, "m", f"position {where} from the wheel"),
+        "contact_y": _variable(at, points.y_of_points, "m", f"position {where} across the rail"),
+        "contact_pressure": _variable(
+            (dim, *at), [f / points.area for f in forces], "Pa", f"pressure {where}"
+        ),
+    }
+
+
 def pressure_below(x: Array, y: Array, nodal: Array, symmetric: bool) -> SurfacePressure:
     """Pressure on the whole patch, laid out flat, from values (mx*my,) [Pa] at tread nodes.
 

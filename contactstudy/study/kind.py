@@ -103,6 +103,8 @@ class Report:
     abstract: Sequence[str]
     #: Results; the ``file`` of a figure's block is its drawing's name and ".pdf".
     parts: Sequence[Part]
+    #: What follows from the results, on the first page.
+    conclusion: Sequence[Block] = ()
     #: What is computed, after the study's description.
     subject: Sequence[Block] = ()
     #: Paragraph above the tables of parameters.

@@ -3,20 +3,23 @@
 import numpy as np
 import pytest
 
-from contactstudy.figures import write_figures
+from contactstudy.figures import model, write_figures
+from contactstudy.figures.histories import shown_limit, swings_quickly
 from contactstudy.figures.irregularity import mean_level_difference
 from contactstudy.figures.passing_components import all_passing
-from contactstudy.figures.patch import patch_of
+from contactstudy.figures.patch import bilinear, patch_of
+from contactstudy.figures.press import own_give
 from contactstudy.irregularity.shown import SpectrumCurve
 from contactstudy.plot.style import figure_style, run_styles, save
 from contactstudy.plot.text import capital, exact, label, number
 from contactstudy.study.kinds.passage.drawings import drawings
 
 LABELS = {
+    "model": set(),
     "irregularity_spectrum": {"Angular wavenumber ω (rad/m)", "two-sided (m²/(rad/m))"},
     "irregularity_profile": {"Position X along the rail (m)", "(mm)"},
     "contact_force": {"Position X of the wheel (m)", "Force\n(kN)", "Difference\n(kN)"},
-    "wheel_displacement": {"Displacement\n(mm)", "Difference\n(mm)"},
+    "wheel_displacement": {"Displacement\nfrom rest\n(mm)", "Difference\n(mm)"},
     "wheel_acceleration": {"Acceleration\n(m/s²)", "Difference\n(m/s²)"},
     "rail_displacement": {"Displacement\n(mm)", "Difference\n(mm)"},
     "rail_acceleration": {"Acceleration\n(m/s²)", "Difference\n(m/s²)"},
@@ -71,6 +74,7 @@ def test_passing_amplitudes_are_those_put_into_the_signal(results):
 def test_missing_optional_data_leaves_figures_out(bare):
     names = [made.name for made in drawings(bare)]
     signals = [
+        "model",
         "contact_force",
         "wheel_displacement",
         "wheel_acceleration",
@@ -100,7 +104,7 @@ def test_writing_makes_every_figure_twice_and_nothing_else(bare, tmp_path):
     written = write_figures(small, tmp_path)
     assert [p.name for p in written] == [
         f"{name}.{ending}"
-        for name in ("contact_force", "third_octaves")
+        for name in ("model", "contact_force", "third_octaves")
         for ending in ("pdf", "png")
     ]
     assert sorted(p.name for p in (tmp_path / "figures").iterdir()) == sorted(
@@ -166,3 +170,64 @@ def test_symbols_stay_as_they_are():
     assert label("hertz_euler") == "hertz euler" and label("k_r_sweep") == "k r sweep"
     assert label("k_r") == "k_r" and capital("k_r of point") == "k_r of point"
     assert capital("speed") == "Speed"
+
+
+def test_the_reference_is_drawn_on_top(results, by_name):
+    with figure_style():
+        for name in ("contact_force", "third_octaves"):
+            axes = by_name[name].draw().axes[0]
+            order = {line.get_label(): line.get_zorder() for line in axes.lines}
+            reference = order.pop("surface (reference)")
+            assert all(reference > z for z in order.values() if z is not None), name
+
+
+def test_one_loud_run_does_not_fill_the_panel_of_differences(results):
+    run = results.runs["tangent"]
+    rng = np.random.default_rng(1)
+    loud = run["contact_force"] + 30e3 * rng.standard_normal(run.sizes["time"])
+    other = type(results)(
+        **{**vars(results), "runs": {**results.runs, "tangent": run.assign(contact_force=loud)}}
+    )
+    made = {d.name: d for d in drawings(other)}["contact_force"]
+    with figure_style():
+        below = made.draw().axes[1]
+    assert len(below.collections) >= 1  # its range as a band
+    assert below.get_ylim()[1] < 30.0
+    assert "tangent goes beyond the panel" in made.caption
+
+
+@pytest.mark.parametrize(
+    ("largest", "limit"), [([10.0, 9.0], None), ([100.0, 4.0, 1.0], 5.0), ([3.0], None)]
+)
+def test_where_the_panel_of_differences_ends(largest, limit):
+    assert shown_limit(largest) == limit
+
+
+def test_a_quick_swing_is_told_from_a_slow_one():
+    x = np.linspace(0, 24, 5000)
+    assert swings_quickly(np.sin(2 * np.pi * x / 0.1))
+    assert not swings_quickly(np.sin(2 * np.pi * x / 1.5))
+    assert not swings_quickly(np.zeros(5000)) and not swings_quickly(np.arange(20.0))
+
+
+def test_bilinear_field_between_nodes():
+    x, y = np.array([0.0, 2.0, 3.0]), np.array([-1.0, 1.0])
+    plane = 2.0 * x + 3.0 * y[:, None] + x * y[:, None]
+    fine_x, fine_y, fine = bilinear(x, y, plane, 4)
+    assert fine.shape == (5, 9) and fine_x[4] == 2.0
+    np.testing.assert_allclose(fine, 2 * fine_x + 3 * fine_y[:, None] + fine_x * fine_y[:, None])
+
+
+def test_give_of_the_bodies_beside_hertz():
+    force = np.linspace(20e3, 120e3, 7)
+    hertz = (force / 9.2e10) ** (2 / 3)
+    assert own_give(force, hertz + 2e-10 * force, hertz) == pytest.approx(2e-10, rel=1e-12)
+
+
+def test_a_picture_of_the_model(results):
+    (made,) = model.drawings(results)
+    with figure_style():
+        texts = {t.get_text() for t in made.draw().axes[0].texts}
+    assert {"X", "Y", "Z", "rail", "pad", "sleeper", "wheel", "300 km/h", "0.6 m"} <= texts
+    assert {"point contact", "surface contact"} <= texts
+    assert "discrete supports" in made.caption

@@ -23,6 +23,9 @@ def full(results):
     pressure = run["pressure"].values
     run["contact_status"] = (("instant", "point"), (pressure > 0).astype(float), {"units": "1"})
     outside = (run["point_x"] ** 2 / 0.86 + run["point_y"] ** 2 / 0.6).values - 4e-5
+    run["contact_pressure"] = (("instant", "contact_point"), pressure)
+    run["contact_x"] = ("contact_point", run["point_x"].values)
+    run["contact_y"] = ("contact_point", run["point_y"].values)
     run["point_area"] = ("point", np.where(run["point_y"] > 0, 2e-6, 1e-6))
     run["gap"] = (("instant", "point"), np.where(pressure > 0, -1e-7, outside), {"units": "m"})
     maxima = [stress_maxima(instant_pressure(run, k)) for k in range(len(pressure))]
@@ -56,7 +59,7 @@ def test_figures_of_the_patch(full):
     assert f"{shear.max() * 1e-6:.0f} MPa" in marks[2]
     assert below.axes[0].yaxis_inverted()
     assert "bending and support are not contained" in made["stress_below"].caption
-    assert {"Contact status of the nodes", "Along the rail (mm)"} <= set(labels(status))
+    assert {"Contact points", "Along the rail (mm)"} <= set(labels(status))
     run, k = full.runs["surface"], int(np.argmax(shear))
     area = float((run["point_area"] * run["contact_status"])[:, k].sum()) * 1e6
     assert f"{area:.1f} mm²" in made["patch_status"].caption

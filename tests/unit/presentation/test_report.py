@@ -13,8 +13,13 @@ from contactstudy.report.quantity import fixed, percent, quantity
 from contactstudy.resources import resource
 from contactstudy.study.kind import KINDS, find_kind
 from contactstudy.study.kinds.passage.drawings import drawings
-from contactstudy.study.kinds.passage.report.abstract import GRADES, abstract, grade, papers_scheme
+from contactstudy.study.kinds.passage.metrics import study_metrics
+from contactstudy.study.kinds.passage.report import reference_error
+from contactstudy.study.kinds.passage.report.abstract import GRADES, abstract, grade
+from contactstudy.study.kinds.passage.report.naming import papers_scheme
+from contactstudy.study.kinds.passage.report.tables import run_table
 
+COST = {"seconds": {"setup": 1.25, "stepping": 0.375}, "peak_memory_mb": 187.5}
 A4 = (595.276, 841.89)  # points
 
 
@@ -68,10 +73,10 @@ def test_same_results_give_the_same_bytes(made, tmp_path):
 
 def test_machine_times_are_left_out_unless_asked_for(made):
     study, *_ = made
-    columns = [c["title"] for c in content(study, False)["subject"][-1]["columns"]]
+    columns = [c["title"] for c in run_table(study, False)["columns"]]
     assert "Time step (µs)" in columns
     assert "Setup (s)" not in columns
-    table = content(study, True)["subject"][-1]
+    table = run_table(study, True)
     assert [c["title"] for c in table["columns"]][-3:] == [
         "Setup (s)",
         "Stepping (s)",
@@ -255,3 +260,172 @@ def test_fixed_decimals():
         "–",
         "–",
     ]
+
+
+def changed(study, **tables):
+    """The study with other values in tables of its configuration."""
+    config = dict(study.config)
+    for key, values in tables.items():
+        config[key] = {**config[key], **values}
+    return type(study)(**{**vars(study), "config": config})
+
+
+@pytest.mark.parametrize(
+    "values",
+    [
+        {"k_r": 1e10},
+        {"k_r": "tangent"},
+        {"local_compliance": True},
+        {"rail": "timoshenko"},
+        {"law": "hertz"},
+        {"contact_filter": "patch"},
+        {"bay_compliance": True},
+        {"integrator": "generalised_alpha"},
+        {"irregularity": "smooth"},
+        {"direction": "Y"},
+        {"wheel": "modal"},
+    ],
+)
+def test_no_other_run_is_called_our_reading_of_the_paper(made, values):
+    study, *_ = made
+    other = changed(study, runs={"point": {**study.config["runs"]["point"], **values}})
+    assert papers_scheme(other) is None
+    assert "paper's scheme" not in " ".join(abstract(other))
+
+
+@pytest.mark.parametrize("values", [{"elements_per_bay": 8}, {"time_step": 1e-5}])
+def test_what_the_paper_leaves_open_is_our_reading_too(made, values):
+    study, *_ = made
+    other = changed(study, runs={"point": {**study.config["runs"]["point"], **values}})
+    assert papers_scheme(other) == "point"
+    assert "our reading of the paper's scheme" in " ".join(abstract(other))
+
+
+def sentences(blocks):
+    return " ".join(part["text"] for b in blocks if b["kind"] == "text" for part in b["parts"])
+
+
+def with_errors(study, softer=None, **dynamic):
+    """The study with these errors of the dynamic part, and of one with a softer spring."""
+    metrics = {**study.metrics, "comparisons": {}}
+    for name, value in dynamic.items():
+        signals = study.metrics["comparisons"][name]
+        force = {**signals["contact_force"], "relative_l2_dynamic": value}
+        if softer and name in softer:
+            force["softer"] = {"k_r": 0.97, "relative_l2_dynamic": softer[name]}
+        metrics["comparisons"][name] = {**signals, "contact_force": force}
+    return type(study)(**{**vars(study), "metrics": metrics})
+
+
+def test_the_conclusion_ranks_what_the_reference_can_tell_apart(made):
+    study, *_ = made
+    own = reference_error.DEFAULTS.dynamic
+    close = with_errors(study, point=0.05 + 0.9 * own, tangent=0.05, hertz_timoshenko=0.4)
+    told, table = content(close, False)["conclusion"]
+    assert [row[:2] for row in table["rows"]] == [
+        ["1", "tangent"], ["1", "point"], ["3", "hertz timoshenko"],
+    ]  # fmt: skip
+    assert all(row[3] == percent(own) for row in table["rows"])
+    assert "point is as good within what can be told" in sentences([told])
+    apart = with_errors(study, point=0.05 + 1.1 * own, tangent=0.05, hertz_timoshenko=0.4)
+    assert [row[0] for row in content(apart, False)["conclusion"][1]["rows"]] == ["1", "2", "3"]
+
+
+def test_the_conclusion_says_what_k_r_does(made):
+    study, *_ = made
+    some = with_errors(study, {"tangent": 0.0191}, tangent=0.0207, point=0.3)
+    told = sentences(content(some, False)["conclusion"])
+    assert "3 % less k_r its error is 1.91 instead of 2.07 %" in told
+    assert "smaller than that" in told  # than the reference's own error
+    more = with_errors(study, {"tangent": 0.03}, tangent=0.0207, point=0.3)
+    assert "smaller than that" not in sentences(content(more, False)["conclusion"])
+
+
+def test_no_model_is_recommended_that_is_far_off(made):
+    study, *_ = made
+    told = sentences(content(with_errors(study, point=0.4, tangent=0.3), False)["conclusion"])
+    assert "None of the point models here can stand in" in told and "Use the" not in told
+
+
+@pytest.mark.parametrize(
+    ("table", "values", "named"),
+    [
+        ("solid", {"mesh_size": 0.004}, "solid.mesh_size"),
+        ("journey", {"time_step": 2e-4}, "journey.time_step"),
+        ("irregularity", {"band": [0.08, 314.0]}, "irregularity"),
+        ("irregularity", {"wheel_defect": "flat"}, "irregularity"),
+        ("runs", {"surface": {"solver": "surface", "wheel": "modal"}}, "wheel"),
+    ],
+)
+def test_an_unknown_error_of_the_reference_is_called_unknown(made, table, values, named):
+    study, *_ = made
+    journey = {"time_step": 5e-5, **(values if table == "journey" else {})}
+    others = {} if table == "journey" else {table: values}
+    told, errors = content(changed(study, journey=journey, **others), False)["conclusion"]
+    assert "not known" in sentences([told]) and named in sentences([told])
+    assert all(row[3] == "–" for row in errors["rows"])
+
+
+def test_against_a_point_model_nothing_is_concluded(bare):
+    assert content(bare, False)["conclusion"] == []
+
+
+def test_next_to_no_dynamic_part_is_said_and_not_graded(made):
+    study, *_ = made
+    quiet = {}
+    for name, run in study.runs.items():
+        force = run["contact_force"]
+        quiet[name] = run.assign(contact_force=force[0] + 0.004 * (force - force[0]))
+    metrics = study_metrics(quiet, dict.fromkeys(quiet, COST), "surface", 9.0)
+    other = type(study)(**{**vars(study), "runs": quiet, "metrics": metrics})
+    told = " ".join(abstract(other))
+    assert "too small to compare" in told
+    assert not any(words in told for _, words in GRADES)
+    data = content(other, False)
+    assert data["conclusion"] == []
+    (errors,) = [part for part in data["results"] if part["title"] == "Errors"]
+    assert {row[2] for block in errors["blocks"] if block["kind"] == "table"
+            for row in block["rows"]} == {"–"}  # fmt: skip
+
+
+def test_one_run_has_no_errors_and_nothing_to_compare(made):
+    study, *_ = made
+    runs = {"point": study.runs["point"]}
+    metrics = study_metrics(runs, {"point": COST}, None, 9.0)
+    alone = {"runs": runs, "reference": None, "metrics": metrics, "companions": ()}
+    other = type(study)(**{**vars(study), **alone})
+    data = content(other, False)
+    assert "Errors" not in [part["title"] for part in data["results"]]
+    assert "nothing to compare" in " ".join(data["abstract"])
+
+
+@pytest.mark.parametrize(
+    ("start", "end", "words"),
+    [
+        (2000, None, "the wheel flies off at X ="),
+        (2000, 2400, "is without contact on"),
+        (2000, 2010, "Contact is lost at times in point."),
+    ],
+)
+def test_lost_contact_is_told_with_its_place(made, start, end, words):
+    study, *_ = made
+    run = study.runs["point"]
+    force, wheel = run["contact_force"].copy(), run["wheel_displacement"].copy()
+    force[start:end], wheel[start:end] = 0.0, wheel[start:end] + 0.02
+    lost = run.assign(contact_force=force, wheel_displacement=wheel)
+    other = type(study)(**{**vars(study), "runs": {**study.runs, "point": lost}})
+    told = abstract(other)[0]
+    assert words in told
+    if end is None:
+        assert f"X = {float(run['position'][start]):.2f} m" in told and "mm above it" in told
+
+
+def test_a_pulling_spring_has_not_lost_contact(made):
+    study, *_ = made
+    run = study.runs["point"]
+    force = run["contact_force"].copy()
+    force[2000:2010] = -5e3
+    other = {**study.runs, "point": run.assign(contact_force=force)}
+    told = abstract(type(study)(**{**vars(study), "runs": other}))[0]
+    assert "pulls where the wheel would lift off, with up to 5.00 kN" in told
+    assert "Contact is lost" not in told

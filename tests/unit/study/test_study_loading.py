@@ -1,6 +1,7 @@
 """Study files: defaults, overrides, and every kind of bad input with its message."""
 
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -50,11 +51,15 @@ def test_the_shipped_comparison_is_the_issues():
         "point": ("point", "euler", "linear"),
         "point_tangent": ("point", "euler", "linear"),
         "hertz": ("point", "euler", "hertz"),
+        "hertz_closed_form": ("point", "euler", "hertz"),
         "hertz_timoshenko": ("point", "timoshenko", "hertz"),
         "timoshenko_tangent": ("point", "timoshenko", "linear"),
     }
     assert study.runs["point"].k_r == 1e11 and study.runs["point"].elements_per_bay == 4
     assert study.runs["point_tangent"].k_r == "tangent"
+    # the law is all that is changed: the stiffness stays that of the press
+    assert study.runs["hertz"] == replace(study.runs["point_tangent"], law="hertz",
+                                          k_r=1e11, hertz_constant="press")  # fmt: skip
     assert study.solid.mesh_size == 0.002
     assert study.companions == ("smooth_rail",)
 

@@ -110,3 +110,53 @@ def test_nothing_is_compared_with_a_dynamic_part_that_is_next_to_nothing():
     ]
     assert force["relative_l2_dynamic"] is None and force["sprague_geers_dynamic"]["M"] is None
     assert force["relative_l2"] == pytest.approx(5.0 / np.sqrt(2) / STATIC, rel=1e-3)
+
+
+def test_the_wheel_is_compared_from_rest():
+    """A spring without the static approach stands 0.1 mm higher, and moves just the same."""
+    reference = run(1e-4)
+    same, worse = reference.copy(deep=True), run(1e-4, 1.2)
+    same["wheel_displacement"] = same["wheel_displacement"] + 1e-4
+    found = metrics(surface=reference, linear=same, other=worse)["comparisons"]
+    linear, other = (found[name]["wheel_displacement"] for name in ("linear", "other"))
+    assert linear["linf"] < 1e-15 and linear["relative_l2"] < 1e-12
+    assert other["linf"] == pytest.approx(4e-5, rel=1e-6)
+    for norm in ("linf", "rms", "relative_l2", "relative_l2_dynamic"):
+        assert linear[norm] < other[norm], norm
+    # of the force a static difference counts
+    same["contact_force"] = same["contact_force"] + 100.0
+    assert metrics(surface=reference, linear=same)["comparisons"]["linear"]["contact_force"][
+        "linf"
+    ] == pytest.approx(100.0)
+
+
+def test_bands_without_content_are_left_out():
+    """41 dB below the highest band there is nothing to compare, 39 dB below there is."""
+    x = np.linspace(0, 20, 20001)
+    for level, kept in ((-39.0, True), (-41.0, False)):
+        quiet = 10 ** (level / 20) * np.sin(2 * np.pi * 4 * x)
+        reference = np.sin(2 * np.pi * x) + quiet
+        levels = level_differences(reference + quiet, reference, x, SPEED)
+        assert ("200" in levels) == kept
+        if kept:
+            assert levels["200"] == pytest.approx(20 * np.log10(2), abs=0.05)
+
+
+def small(gain: float) -> xr.Dataset:
+    """A run whose force swings by so much of 5 kN; its value at rest is that of all."""
+    return run(1e-4, gain)
+
+
+def test_next_to_no_dynamic_part_is_not_compared():
+    """5 kN make a root mean square of 5.9 % of 60 kN: a tenth of it may be compared."""
+    large = metrics(surface=small(0.1), point=small(0.05))
+    assert large["dynamic_part"]["compared"]
+    assert large["dynamic_part"]["rms"] == pytest.approx(500 / np.sqrt(2), rel=1e-3)
+    found = metrics(surface=small(0.05), point=small(0.1))
+    assert not found["dynamic_part"]["compared"]
+    assert found["dynamic_part"]["of_static"] == pytest.approx(250 / np.sqrt(2) / STATIC, rel=1e-3)
+    for signal, entry in found["comparisons"]["point"].items():
+        assert entry["relative_l2_dynamic"] is None, signal
+        assert entry["sprague_geers_dynamic"] == {"M": None, "P": None, "C": None}
+        assert entry["third_octave"] == {}
+    assert found["comparisons"]["point"]["contact_force"]["relative_l2"] is not None

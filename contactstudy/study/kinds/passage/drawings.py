@@ -5,6 +5,7 @@ from contactstudy.figures import (
     histories,
     irregularity,
     ladder,
+    model,
     passing,
     patch,
     patch_history,
@@ -19,7 +20,7 @@ from contactstudy.plot.drawing import Drawing
 from contactstudy.study.results import StudyResults
 
 _FAMILIES = (
-    trust, stiffness, ladder, irregularity, histories, bands, patch, patch_status, stress,
+    model, trust, stiffness, ladder, irregularity, histories, bands, patch, patch_status, stress,
     patch_history, section, press, passing,
 )  # fmt: skip
 

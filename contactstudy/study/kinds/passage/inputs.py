@@ -21,7 +21,7 @@ from contactstudy.study.kinds.passage.runs import PointRun
 from contactstudy.study.kinds.passage.scan import PATHS as SCAN_PATHS
 from contactstudy.study.kinds.passage.schema import IRREGULARITY, Study
 from contactstudy.study.kinds.passage.touching import touched_beyond
-from contactstudy.study.kinds.passage.twins import twins, untwinned
+from contactstudy.study.kinds.passage.twins import all_pieces, untwinned
 from contactstudy.study.kinds.passage.wheelset import PATHS as WHEELSET_PATHS
 from contactstudy.validation import multiple
 from contactstudy.vehicle import Bogie, Train
@@ -130,7 +130,7 @@ def _scans(study: Study, config: dict[str, Any], files: dict[str, str]) -> tuple
 
 
 def work(study: Study, inputs: Inputs) -> list[Work]:
-    """A piece a run, and one a smooth twin."""
+    """A piece a run, and one a twin."""
 
     def piece(name: str) -> Work:
         owner, run = untwinned(study, name)
@@ -139,7 +139,7 @@ def work(study: Study, inputs: Inputs) -> list[Work]:
         batch = _batch(owner, inputs, run) if light else ""
         return Work(name, _run_inputs(owner, inputs, run), long=long, light=light, batch=batch)
 
-    return [piece(name) for name in (*study.runs, *twins(study).values())]
+    return [piece(name) for name in all_pieces(study)]
 
 
 def _batch(study: Study, inputs: Inputs, run: str) -> str:

@@ -26,7 +26,7 @@ from contactstudy.study.axes.measured import Measured, measured
 from contactstudy.study.kinds.passage.impacts import closed_forms, impacts
 from contactstudy.study.kinds.passage.metrics import compare_runs, parts_of
 from contactstudy.study.kinds.passage.schema import Study
-from contactstudy.study.kinds.passage.twins import SMOOTH, with_twins
+from contactstudy.study.kinds.passage.twins import SMOOTH, SOFTER, with_twins
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -98,7 +98,8 @@ def _own(run: xr.Dataset, start: float, of: Any) -> None:
     x = position(run)
     for name, variable in run.data_vars.items():
         signal = str(name)
-        if variable.dims[-1:] != ("time",) or "station" in variable.dims or signal.endswith(SMOOTH):
+        twin = signal.endswith((SMOOTH, SOFTER))
+        if variable.dims[-1:] != ("time",) or "station" in variable.dims or twin:
             continue
         values = np.asarray(variable.values, dtype=float)
         behind = _behind(values, x, start)

@@ -21,7 +21,7 @@ from contactstudy.study.study import TEXTS, read_texts
 from contactstudy.validation import complaint, did_you_mean, raise_if, read, resolve_paths, unknown
 
 _TOP_LEVEL = (*TEXTS, *SECTIONS, "runs", "compare")
-_COMPARE = ("reference", "smooth", "rungs")
+_COMPARE = ("reference", "smooth", "rungs", "softer")
 _SWITCHES = ("smooth", "rungs")
 _SHARED = ("track", "vehicle", "journey", "solid", "wheelset", "scan")
 
@@ -109,5 +109,10 @@ def _compare(data: Mapping[str, Any], runs: list[str]) -> tuple[dict[str, Any], 
         for key, value in switches.items()
         if not isinstance(value, bool)
     ]
+    softer = table.get("softer", 0.0)
+    if isinstance(softer, bool) or not isinstance(softer, int | float) or not 0.0 <= softer <= 0.5:
+        problems.append(complaint("compare.softer", softer, "must be a number from 0 to 0.5"))
+        softer = 0.0
     problems += wrong_reference(reference, runs)
-    return {"reference": reference, **{k: v is True for k, v in switches.items()}}, problems
+    chosen = {k: v is True for k, v in switches.items()} | {"softer": float(softer)}
+    return {"reference": reference, **chosen}, problems

@@ -17,6 +17,8 @@ from contactstudy.study.kinds.passage.solid import Solid, spacing
 from contactstudy.study.kinds.passage.wheelset import WheelsetPosition
 from contactstudy.track.model import Track
 from contactstudy.validation import (
+    AtLeast,
+    AtMost,
     Key,
     Table,
     Variants,
@@ -72,6 +74,10 @@ class Study(study.Study):
     rungs: Annotated[
         bool, Key("compare.rungs"), "whether each run is also compared with the one above it"
     ] = False
+    softer: Annotated[
+        float, Key("compare.softer"), AtLeast(0), AtMost(0.5),
+        "part by which k_r of each linear run is also lowered, for what its error owes to k_r",
+    ] = 0.0  # fmt: skip
 
     def __post_init__(self) -> None:
         """Refuse what is impossible in combination, as in a file; cells fit the supports."""
@@ -138,8 +144,8 @@ class Study(study.Study):
         if self.runs:
             tables["runs"] = {name: self.resolved_run(name) for name in self.runs}
         if self.reference:
-            switches = {"smooth": self.smooth, "rungs": self.rungs}
-            tables["compare"] = {"reference": self.reference, **switches}
+            chosen = {"smooth": self.smooth, "rungs": self.rungs, "softer": self.softer}
+            tables["compare"] = {"reference": self.reference, **chosen}
         return tables
 
     def resolved_run(self, name: str) -> dict[str, Any]:

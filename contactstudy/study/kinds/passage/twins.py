@@ -1,19 +1,21 @@
-"""The smooth twin of a run: the same run on a rail without irregularity.
+"""Twins of a run, which differ from it in one thing: on a smooth rail, or with a softer spring.
 
-What the irregularity causes is the signal minus that of the twin. Variants that differ in their
-irregularity only share their twins.
+What the irregularity causes is the signal minus that of the smooth twin. Variants that differ in
+their irregularity only share their smooth twins. What the error owes to the choice of k_r is that
+of the softer twin.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from contactstudy.solvers.dataset import POINT_SIGNALS, SECTION_SIGNALS
 from contactstudy.solvers.dataset import SIGNALS as RUN_SIGNALS
-from contactstudy.study.kinds.passage.runs import SurfaceRun
+from contactstudy.study.kinds.passage.runs import PointRun, SurfaceRun
 from contactstudy.study.kinds.passage.schema import Study
+from contactstudy.validation import multiple
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -23,16 +25,32 @@ SIGNALS = (
     "rail_acceleration",
 )  # fmt: skip
 """Histories that are compared."""
-SMOOTH = "_smooth"
-"""What the name of a twin's history ends with."""
-_TWIN = ".smooth"  # no run's name has a dot
+SMOOTH, SOFTER = "_smooth", "_softer"
+"""What the names of a twin's histories end with."""
+_SMOOTH_TWIN, _SOFTER_TWIN = ".smooth", ".softer"  # no run's name has a dot
 
 
 def twins(study: Study) -> dict[str, str]:
-    """Run -> name of its twin's piece of work, where the study asks for twins."""
+    """Run -> name of its smooth twin's piece of work, where the study asks for twins."""
     if not study.smooth:
         return {}
-    return {n: n + _TWIN for n, run in study.runs.items() if run.irregularity != "smooth"}
+    return {n: n + _SMOOTH_TWIN for n, run in study.runs.items() if run.irregularity != "smooth"}
+
+
+def softer_twins(study: Study) -> dict[str, str]:
+    """Linear run -> name of its softer twin's piece of work, where the study asks for them."""
+    if not study.softer:
+        return {}
+    return {n: n + _SOFTER_TWIN for n, run in study.runs.items() if _linear(run)}
+
+
+def _linear(run: PointRun | SurfaceRun) -> bool:
+    return isinstance(run, PointRun) and run.law == "linear" and not run.rigid
+
+
+def all_pieces(study: Study) -> list[str]:
+    """Names of all runs and twins."""
+    return [*study.runs, *twins(study).values(), *softer_twins(study).values()]
 
 
 def histories(study: Study) -> list[str]:
@@ -54,26 +72,50 @@ def histories(study: Study) -> list[str]:
 
 
 def untwinned(study: Study, name: str) -> tuple[Study, str]:
-    """The study and run behind a piece of work; of a twin the study with that run smooth."""
-    if not name.endswith(_TWIN):
+    """The study and run behind a piece of work; of a twin the study with that run changed."""
+    run, _, kind = name.partition(".")
+    if not kind:
         return study, name
-    run = name.removesuffix(_TWIN)
-    smooth = replace(study.runs[run], irregularity="smooth")
-    return replace(study, runs=study.runs | {run: smooth}), run
+    own = study.runs[run]
+    if name.endswith(_SMOOTH_TWIN):
+        changed = replace(own, irregularity="smooth")
+    else:
+        assert isinstance(own, PointRun)
+        changed = replace(own, k_r=_softer(own.k_r, 1.0 - study.softer))
+    return replace(study, runs=study.runs | {run: changed}), run
+
+
+def _softer(k_r: float | str, part: float) -> Any:
+    if isinstance(k_r, int | float):
+        return part * k_r
+    factor, name = multiple(k_r)
+    return f"{part * factor!r} x {name}"
 
 
 def with_twins(study: Study, found: Mapping[str, xr.Dataset]) -> dict[str, xr.Dataset]:
     """Runs of the finished pieces of work, with the histories of their twins beside their own."""
-    own = twins(study)
+    own, softer = twins(study), softer_twins(study)
+    made = {}
+    for name in study.runs:
+        run = found[name]
+        if name in own:
+            run = run.assign(_histories(run, found[own[name]], SIGNALS, SMOOTH, "on a smooth rail"))
+        if name in softer:
+            part = 1.0 - study.softer
+            text = f"with {part:g} of its k_r"
+            force = _histories(run, found[softer[name]], SIGNALS[:1], SOFTER, text)
+            run = run.assign(
+                {key: history.assign_attrs(part_of_k_r=part) for key, history in force.items()}
+            )
+        made[name] = run
+    return made
+
+
+def _histories(
+    run: xr.Dataset, twin: xr.Dataset, names: tuple[str, ...], ending: str, text: str
+) -> dict[str, xr.DataArray]:
     return {
-        name: found[name].assign(
-            {
-                s + SMOOTH: found[own[name]][s].assign_attrs(
-                    long_name=f"{found[name][s].attrs.get('long_name', s)}, on a smooth rail"
-                )
-                for s in SIGNALS
-                if name in own and s in found[name]
-            }
-        )
-        for name in study.runs
+        s + ending: twin[s].assign_attrs(long_name=f"{run[s].attrs.get('long_name', s)}, {text}")
+        for s in names
+        if s in run
     }

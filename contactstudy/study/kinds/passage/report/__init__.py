@@ -2,12 +2,15 @@
 
 from typing import Any
 
+from contactstudy.figures import model
+from contactstudy.figures.histories import EXPLAINED
 from contactstudy.figures.irregularity import irregularity_of
 from contactstudy.figures.passing_components import is_smooth
 from contactstudy.report.blocks import Block, cited, figure, paragraphs, text
 from contactstudy.study.kind import Part, Report
 from contactstudy.study.kinds.passage.drawings import drawings
 from contactstudy.study.kinds.passage.report.abstract import GRADES, abstract
+from contactstudy.study.kinds.passage.report.conclusion import conclusion
 from contactstudy.study.kinds.passage.report.rungs import rung_tables
 from contactstudy.study.kinds.passage.report.stress_table import stress_tables
 from contactstudy.study.kinds.passage.report.tables import error_tables, passing_table, run_table
@@ -38,10 +41,11 @@ _PARTS = (
 
 
 def report(results: StudyResults, timings: bool = False) -> Report:
-    """The paper's comparison, with its model and what of the paper was not available."""
+    """Comparison of the runs, with the model and what the paper leaves open."""
     parts = _parts(results)
     return Report(
         abstract=abstract(results),
+        conclusion=conclusion(results),
         subject=_subject(results, timings),
         sources=_sources(results),
         parts=[*parts, *_errors(results)],
@@ -54,12 +58,8 @@ def report(results: StudyResults, timings: bool = False) -> Report:
 def _subject(results: StudyResults, timings: bool) -> list[Block]:
     if not results.runs:
         return []
-    told = text(
-        "Each run changes one assumption or a few, so that their differences can be told apart: "
-        "how the rail is modelled, by what law wheel and rail push on each other, and with what "
-        "stiffness."
-    )
-    return [told, run_table(results, timings)]
+    pictures = [figure(made.name, made.caption) for made in model.drawings(results)]
+    return [run_table(results, timings), *pictures]
 
 
 def _sources(results: StudyResults) -> Block:
@@ -83,7 +83,10 @@ def _parts(results: StudyResults) -> list[Part]:
     made = drawings(results)
     parts: list[Part] = []
     for title, names in _PARTS:
-        blocks = [figure(d.name, d.caption) for d in made if d.name.startswith(names)]
+        own = [d for d in made if d.name.startswith(names)]
+        blocks = [figure(d.name, d.caption) for d in own]
+        if title == "Contact force" and own:
+            blocks.insert(0, text(EXPLAINED))
         if title == "Contact patch":
             blocks += stress_tables(results)
         if title == "The ladder":
@@ -103,14 +106,28 @@ def _errors(results: StudyResults) -> list[Part]:
     grades = "; ".join(
         f"below {100 * limit:g} % “{words}”" for limit, words in GRADES if limit != float("inf")
     )
-    note = text(
-        "The errors are given twice, relative to the whole signal and relative to its dynamic "
-        "part about the static value: whether two models look almost identical depends on which. "
-        "M, P and C are the errors of magnitude, phase and both of Sprague and Geers, of the "
-        f"dynamic part. The words of the abstract follow the error of the dynamic part: {grades}, "
-        f"else “{GRADES[-1][1]}”."
-    )
-    return [{"title": "Errors", "blocks": [note, *tables]}]
+    told = [
+        "Each error is given relative to the whole signal and relative to its dynamic part about "
+        "the static value: whether two models look almost identical depends on which. Magnitude, "
+        "phase and both are the errors of Sprague and Geers of the dynamic part."
+    ]
+    if not results.metrics.get("dynamic_part", {}).get("compared", True):
+        told = [
+            "The reference's contact force has next to no dynamic part: errors relative to it are "
+            "not given."
+        ]
+    elif not results.metrics.get("rungs"):
+        told.append(
+            f"The abstract words the error of the dynamic part so: {grades}; else "
+            f"“{GRADES[-1][1]}”."
+        )
+    if "wheel_displacement" in results.runs[str(results.reference)]:
+        told.append(
+            "Wheel displacements are compared from their values at rest: a linear spring carries "
+            "the dynamic part of the force only, as the static load acts on the rail, so that its "
+            "wheel stands higher by the static approach. That offset is no error."
+        )
+    return [{"title": "Errors", "blocks": [text(" ".join(told)), *tables]}]
 
 
 def _as_companion(results: StudyResults, parts: list[Part], timings: bool) -> list[Part]:

@@ -8,19 +8,19 @@ from contactstudy.compare.signals import position, speed, values
 from contactstudy.figures.irregularity import comparisons, irregularity_of
 from contactstudy.figures.passing_components import all_passing
 from contactstudy.figures.signals import fade_end
-from contactstudy.plot.text import capital, exact, label, number
+from contactstudy.plot.text import capital, exact, label, listing, number
 from contactstudy.report.quantity import grouped, percent
-from contactstudy.study.kinds.passage.metrics import LEAST
-from contactstudy.study.kinds.passage.report import rungs
+from contactstudy.study.kinds.passage.report import lost, rungs
+from contactstudy.study.kinds.passage.report.conclusion import conclusion
 from contactstudy.study.kinds.passage.report.metrics import between, of_run
-from contactstudy.study.kinds.passage.report.tables import describe
+from contactstudy.study.kinds.passage.report.naming import OUR_READING, model, papers_scheme
 from contactstudy.study.results import StudyResults
 
 # Upper limits of the relative L2 error of the dynamic part, and what is said below each.
 GRADES = (
-    (0.01, "can hardly be told from it"),
+    (0.01, "is nearly indistinguishable from it"),
     (0.05, "follows it closely"),
-    (0.2, "follows it in the main, with visible differences"),
+    (0.2, "follows it, with visible differences"),
     (np.inf, "differs markedly from it"),
 )
 
@@ -36,11 +36,8 @@ def abstract(results: StudyResults) -> list[str]:
     if _errors(results):
         paragraphs += rungs.sentences(results) or [_verdict(results)]
         paragraphs.append(_cost(results))
-    elif results.metrics["comparisons"]:
-        paragraphs.append(
-            "The contact force of the reference hardly changes as the wheel runs: its dynamic part "
-            f"is below {100 * LEAST:g} % of it, next to which no error is given."
-        )
+    elif len(results.runs) == 1:
+        paragraphs.append("With one run there is nothing to compare.")
     for companion in results.companions:
         paragraphs += list(_companion(companion))
     return [p for p in paragraphs if p]
@@ -52,101 +49,107 @@ def _case(results: StudyResults) -> str:
     run = results.runs[results.reference or next(iter(results.runs))]
     x = position(run)
     count = len(results.runs)
-    text = (
+    same = " with the same vehicle, irregularity and time stepper," if count > 1 else ""
+    told = [
         f"{capital(_count(count))} model{'s' if count > 1 else ''} of a wheel rolling on a rail "
-        f"{'are' if count > 1 else 'is'} run over the same track, with the same vehicle, the same "
-        f"irregularity and the same time stepper, from X = {exact(x[0])} to {exact(x[-1])} m "
-        f"at {exact(round(speed(run) * 3.6, 3))} km/h."
-    )
+        f"run{'' if count > 1 else 's'} over {'one' if count > 1 else 'the'} track,{same} from "
+        f"X = {exact(x[0])} to {exact(x[-1])} m at {exact(round(speed(run) * 3.6, 3))} km/h."
+    ]
     r = values(run, "irregularity") if "irregularity" in run else np.zeros(1)
     if np.any(r):
-        text += f" The irregularity under the wheel has a range of {number(np.ptp(r) * 1e3)} mm."
+        told.append(
+            f"The irregularity under the wheel has a range of {number(np.ptp(r) * 1e3)} mm."
+        )
+    else:
+        told.append("The irregularity is zero: the rail is smooth.")
     force = values(run, "contact_force")
     after = force[x >= fade_end(results)]
     whose = "of the reference " if results.reference else ""
-    text += (
-        f" The contact force {whose}is {number(force[0] * 1e-3)} kN at rest and lies between "
+    told.append(
+        f"The contact force {whose}is {number(force[0] * 1e-3)} kN at rest and lies between "
         f"{number(after.min() * 1e-3)} and {number(after.max() * 1e-3)} kN in motion."
     )
-    lost = [
-        label(n)
-        for n, d in results.runs.items()
-        if np.any(values(d, "contact_force")[position(d) >= fade_end(results)] <= 0.0)
-    ]
-    text += f" Contact is lost at times in {_listing(lost)}." if lost else " Contact is never lost."
-    return text
+    return " ".join([*told, *lost.sentences(results)])
 
 
 def _irregularity(results: StudyResults) -> str:
     """What a study without runs is about."""
     info = irregularity_of(results)
-    text = "This study has no runs; it shows a rail irregularity."
+    told = "This study has no runs; it shows a rail irregularity."
     if info.profile is not None:
         x, r = info.profile.position, info.profile.level * 1e3
-        text += (
+        told += (
             f" Over {exact(float(x[-1] - x[0]), 3)} m the profile ({info.profile.label}) has a "
             f"root mean square of {number(float(np.std(r)))} mm and a range of "
             f"{number(float(np.ptp(r)))} mm."
         )
-    return " ".join([text, *comparisons(info)])
+    return " ".join([told, *comparisons(info)])
 
 
-def _errors(results: StudyResults) -> dict[str, tuple[float, float, float]]:
+def _errors(results: StudyResults) -> dict[str, tuple[float, float | None, float]]:
     """Run -> errors of its contact force: relative total, relative dynamic, largest in N."""
     found = {}
     for name in results.runs:
         errors = between(results, name, "contact_force")
-        if errors and errors.get("relative_l2_dynamic") is not None:
-            found[name] = (
-                float(errors["relative_l2"]),
-                float(errors["relative_l2_dynamic"]),
-                float(errors["linf"]),
-            )
+        if errors and errors.get("relative_l2") is not None:
+            dynamic = errors.get("relative_l2_dynamic")
+            found[name] = (float(errors["relative_l2"]), dynamic, float(errors["linf"]))
     return found
 
 
 def _verdict(results: StudyResults) -> str:
-    errors = _errors(results)
-    ordered = sorted(errors, key=lambda name: errors[name][1])
+    told = [f"The reference is the run {model(results, str(results.reference))}."]
+    dynamic = {n: (t, d, top) for n, (t, d, top) in _errors(results).items() if d is not None}
+    if len(dynamic) < len(_errors(results)):
+        return " ".join([*told, *_nothing_dynamic(results)])
+    ordered = sorted(dynamic, key=lambda name: dynamic[name][1])
     papers = papers_scheme(results)
-    told = [papers] if papers in errors else []
-    told += [name for name in dict.fromkeys((ordered[0], ordered[-1])) if name not in told]
-    text = f"The reference is the run {_model(results, str(results.reference))}."
-    for name in told:
-        total, dynamic, largest = errors[name]
-        if name == papers:
-            text += f" The contact force of the paper's scheme, the run {_model(results, name)},"
-        elif len(errors) == 1:
-            text += f" The contact force of the run {_model(results, name)}"
-        else:
-            rank = "lowest" if name == ordered[0] else "highest"
-            text += (
-                f" The {rank} error is that of the run {_model(results, name)}, whose contact force"
-            )
-        text += (
-            f" {grade(dynamic)}: the relative L₂ error is {percent(dynamic)} % of the dynamic "
-            f"part, {percent(total)} % of the total force, and the forces are at most "
-            f"{number(largest * 1e-3)} kN apart."
-        )
-    rest = [f"{percent(errors[n][1])} % (“{label(n)}”)" for n in ordered if n not in told]
-    if rest:
+    shown = [papers] if papers in dynamic else []
+    shown += [name for name in dict.fromkeys((ordered[0], ordered[-1])) if name not in shown]
+    told += [_told(results, name, *dynamic[name], rank=_rank(ordered, name)) for name in shown]
+    rest = [f"{percent(dynamic[n][1])} % (“{label(n)}”)" for n in ordered if n not in shown]
+    if rest and not conclusion(results):  # whose table has them
         others = "runs" if len(rest) > 1 else "run"
-        text += f" In the other {others} the error of the dynamic part is {_listing(rest)}."
-    return text
+        told.append(f"In the other {others} the error of the dynamic part is {listing(rest)}.")
+    return " ".join(told)
 
 
-def papers_scheme(results: StudyResults) -> str | None:
-    """Name of the run that is the paper's: Euler beam, constant k_r given as a number."""
-    for name, run in results.config.get("runs", {}).items():
-        linear = run.get("solver") == "point" and run.get("law") == "linear"
-        if linear and run.get("rail") == "euler" and isinstance(run.get("k_r"), int | float):
-            return str(name)
-    return None
+def _rank(ordered: list[str], name: str) -> str:
+    if len(ordered) == 1:
+        return ""
+    return {ordered[0]: "lowest", ordered[-1]: "highest"}.get(name, "")
 
 
-def _model(results: StudyResults, name: str) -> str:
-    rail, contact = describe(results, name)
-    return f"“{label(name)}” (contact: {contact}; rail: {rail})"
+def _told(
+    results: StudyResults, name: str, total: float, error: float, largest: float, rank: str
+) -> str:
+    """How far one run is from the reference."""
+    if name == papers_scheme(results):
+        ours = f"{OUR_READING}, the run {model(results, name)}, with our k_r = 1e11 N/m,"
+        return (
+            f"The contact force of {ours} {grade(error)}: the relative L₂ error is "
+            f"{percent(error)} % of the dynamic part, {percent(total)} % of the total force, and "
+            f"the forces are at most {number(largest * 1e-3)} kN apart."
+        )
+    who = f"The contact force of “{label(name)}”"
+    if rank:
+        who = f"The {rank} error is that of “{label(name)}”, whose contact force"
+    return (
+        f"{who} {grade(error)}: {percent(error)} % of the dynamic part, {percent(total)} % of the "
+        f"total, at most {number(largest * 1e-3)} kN apart."
+    )
+
+
+def _nothing_dynamic(results: StudyResults) -> list[str]:
+    """Errors of the total force alone, where the reference has next to no dynamic part."""
+    part = results.metrics.get("dynamic_part", {})
+    size = f", {percent(part['of_static'])} % of the static load" if part else ""
+    parts = [f"{percent(total)} % (“{label(n)}”)" for n, (total, _, _) in _errors(results).items()]
+    return [
+        f"The dynamic part of its contact force is too small to compare{size} (root mean square): "
+        "an error relative to it would say nothing, and is not given.",
+        f"Of the total force the relative L₂ error is {listing(parts)}.",
+    ]
 
 
 def _cost(results: StudyResults) -> str:
@@ -156,8 +159,8 @@ def _cost(results: StudyResults) -> str:
     low, high = min(ours), max(ours)
     span = grouped(low) if low == high else f"{grouped(low)} to {grouped(high)}"
     return (
-        f"The reference has {grouped(theirs)} degrees of freedom, the runs compared with it "
-        f"{span}. All error figures are this program's own; none is the paper's."
+        f"The reference has {grouped(theirs)} degrees of freedom, what is compared with it {span}. "
+        "All error figures are ours, not the paper's."
     )
 
 
@@ -167,12 +170,8 @@ def _companion(results: StudyResults) -> Iterable[str]:
         parts = [f"{number(p.percent(1), 2)} % ({label(name)})" for name, p in found.items()]
         yield (
             "On a smooth rail the contact force changes as the wheel passes the sleepers, with an "
-            f"amplitude of {_listing(parts)} of the static load."
+            f"amplitude of {listing(parts)} of the static load."
         )
-
-
-def _listing(parts: list[str]) -> str:
-    return parts[0] if len(parts) == 1 else f"{', '.join(parts[:-1])} and {parts[-1]}"
 
 
 def _count(n: int) -> str:

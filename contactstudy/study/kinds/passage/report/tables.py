@@ -105,7 +105,7 @@ def error_tables(results: StudyResults) -> list[Block]:
             columns = ["Run", "L₂ total (%)", "L₂ dynamic (%)"]
             columns += ["L₂ of irregularity (%)"] if twins else []
             columns += [f"Largest ({signal.unit})", f"RMS ({signal.unit})"]
-            columns += ["Correlation", "M", "P", "C"]
+            columns += ["Correlation", "Magnitude", "Phase", "Both"]
             made.append(
                 table(
                     columns,
