@@ -48,7 +48,9 @@ def _force(results: StudyResults, found: dict[str, Passing]) -> Figure:
         run = results.runs[name]
         x, force = position(run), values(run, "contact_force") * 1e-3
         keep = (x >= low) & (x <= high)
-        axes.plot(x[keep], force[keep], label=label(name), **styles(results)[name].line)
+        order = 3.0 if name == results.reference else 2.0
+        line = styles(results)[name].line | {"zorder": order}
+        axes.plot(x[keep], force[keep], label=label(name), **line)
     for support in np.arange(low, high + bay / 2, bay):
         axes.axvline(support, color=GREY, lw=0.6, ls=":")
     axes.set(xlabel="Position X of the wheel (m), supports dotted", ylabel="Contact force (kN)")

@@ -56,6 +56,15 @@ def _caption(results: StudyResults) -> str:
             f"{number(area.max())} mm² (mean {number(area.mean())} mm²) and the peak pressure "
             f"between {number(peak.min())} and {number(peak.max())} MPa."
         )
+        if has_signal(run, "patch_count"):
+            count = values(run, "patch_count")[keep]
+            if count.max() > 1:
+                text += (
+                    f" Up to {int(count.max())} patches carry at once, several on "
+                    f"{number(100 * float((count > 1).mean()), 2)} % of the way: the area is that "
+                    "of all of them, the pressure that of the highest, and both jump where a patch "
+                    "comes or goes."
+                )
         if has_signal(run, "penetration"):
             left = values(run, "penetration")[keep].max() * 1e9
             text += f" The bodies overlap by at most {number(left)} nm."

@@ -33,6 +33,7 @@ def content(results: StudyResults, timings: bool) -> Content:
         "companions": [_companion(chapter) for chapter in chapters],
         "provenance": _provenance(results),
         "model": report.model,
+        "topics": sorted({t for r in (report, *(c.report for c in chapters)) for t in r.topics}),
         "limits": report.limits,
     }
     parts = [*data["results"], *(p for c in data["companions"] for p in c["parts"])]

@@ -4,7 +4,7 @@ import math
 from typing import Any
 
 from contactstudy.report.blocks import Block, table
-from contactstudy.report.quantity import pretty_unit, quantity
+from contactstudy.report.quantity import quantity
 from contactstudy.study.kind import find_kind
 from contactstudy.study.results import StudyResults
 from contactstudy.validation import Entry, entries
@@ -54,8 +54,8 @@ def parameter_tables(results: StudyResults) -> list[Block]:
 def _shown(value: Any, unit: str) -> tuple[str, str]:
     """Value and unit; of a long list its ends."""
     if isinstance(value, list) and len(value) > _LONG:
-        ends = [quantity(v)[0] for v in (value[0], value[-1])]
-        return f"{len(value)} values, {ends[0]} … {ends[1]}", pretty_unit(unit)
+        ends, unit = quantity([value[0], value[-1]], unit)
+        return f"{len(value)} values, {ends.replace(', ', ' … ')}", unit
     return quantity(value, unit)
 
 

@@ -1,5 +1,6 @@
 """Numbers as they stand in the report: SI prefixes, significant digits, typographic signs."""
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -9,6 +10,8 @@ from contactstudy.plot.text import exact, number, pretty_unit
 # Unit -> whether its leading symbol takes a prefix, and which.
 _LARGE = ((1e9, "G"), (1e6, "M"), (1e3, "k"))
 _PREFIXED = ("N", "Pa")
+_PLAIN = ("Pa/m",)
+"""Units that stand as they are given: of penalties the power of ten is what is read."""
 
 
 def quantity(value: Any, unit: str = "") -> tuple[str, str]:
@@ -23,19 +26,32 @@ def quantity(value: Any, unit: str = "") -> tuple[str, str]:
     if isinstance(value, str):
         return value, ""
     if isinstance(value, list | tuple):
-        return ", ".join(quantity(v)[0] for v in value), pretty_unit(unit)
-    factor, prefix = 1.0, ""
-    size = abs(float(value))
-    if unit.startswith(_PREFIXED):
+        return _listed(value, unit)
+    factor, shown = _prefixed(abs(float(value)), unit)
+    return _plain(float(value) / factor), shown
+
+
+def _listed(values: Sequence[Any], unit: str) -> tuple[str, str]:
+    """Numbers in the one unit that suits the largest; of anything else its texts."""
+    if any(isinstance(v, bool) or not isinstance(v, int | float) for v in values):
+        return ", ".join(quantity(v)[0] for v in values), pretty_unit(unit)
+    factor, shown = _prefixed(max(abs(float(v)) for v in values), unit)
+    return ", ".join(_plain(float(v) / factor) for v in values), shown
+
+
+def _prefixed(size: float, unit: str) -> tuple[float, str]:
+    """What an SI value of about `size` is divided by to be read, and the unit then."""
+    if unit == "m/s":  # as studies give speeds
+        return 1.0 / 3.6, "km/h"
+    if unit.startswith(_PREFIXED) and unit not in _PLAIN:
         for step, symbol in _LARGE:
             if size >= step * 0.9999999:
-                factor, prefix = step, symbol
-                break
+                return step, symbol + pretty_unit(unit)
     elif unit == "s" and 0 < size < 1e-3:
-        factor, prefix = 1e-6, "µ"
+        return 1e-6, "µ" + pretty_unit(unit)
     elif unit in ("s", "m") and 0 < size < 0.1:
-        factor, prefix = 1e-3, "m"
-    return _plain(float(value) / factor), prefix + pretty_unit(unit)
+        return 1e-3, "m" + pretty_unit(unit)
+    return 1.0, pretty_unit(unit)
 
 
 def _plain(value: float) -> str:

@@ -111,6 +111,8 @@ class Report:
     sources: Block | None = None
     #: Its parts in another study's report; `parts` if None.
     as_companion: Sequence[Part] | None = None
+    #: What the template of `model` speaks of.
+    topics: Sequence[str] = ()
     #: Template files with what holds for every study of the kind, before the parameters and
     #: after the results; none if empty.
     model: str = ""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from contactstudy.study.kinds.passage.report.reference_error import DEFAULTS
 from contactstudy.verification.cases import refined_runs
 from contactstudy.verification.cases.refinement import BAND, QUANTITIES
 from contactstudy.verification.cases.refinement_report import (
@@ -178,8 +179,13 @@ def defaults() -> CaseResult:
             )
             for q, limit in ((0, 0.2), (1, 0.6))
         ),
+        *(
+            Check(f"{QUANTITIES[q]}, as reports state it", float(total[q]), 100 * stated, "%",
+                  "reports", 0.05)
+            for q, stated in ((0, DEFAULTS.force), (1, DEFAULTS.dynamic))
+        ),
         Check("mean peak pressure over Hertz's", float(peak), 1.0, "", HERTZ, 0.04),
-    )
+    )  # fmt: skip
     method = METHOD + "\n\nThe series have cases of their own, with every level."
     return CaseResult(
         "convergence", "Error left at the defaults of surface contact", method, checks, (table,)

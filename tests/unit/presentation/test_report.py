@@ -226,7 +226,7 @@ def test_parameters_say_whether_the_study_set_them(made):
     other = type(study)(**{**vars(study), "config": config})
     rows = [row for block in parameter_tables(other) for row in block["rows"]]
     given = {row[0]: (row[1], row[3]) for row in rows}
-    assert given["speed"] == ("83.3333", "default")  # 300 km/h up to rounding
+    assert given["speed"] == ("300", "default")  # 300 km/h up to rounding
     assert given["pad stiffness"] == ("60", "study")
     assert given["wavenumber band"] == ("0.08, 20", "default")
 
@@ -240,12 +240,17 @@ def test_parameters_say_whether_the_study_set_them(made):
         (5e-5, "s", ("50", "µs")),
         (0.002, "m", ("2", "mm")),
         (0.6, "m", ("0.6", "m")),
+        (1e16, "Pa/m", ("1·10¹⁶", "Pa/m")),
+        (300 / 3.6, "m/s", ("300", "km/h")),
+        ([50 / 3.6, 100 / 3.6], "m/s", ("50, 100", "km/h")),
         (8e-8, "m^2*rad/m", ("8·10⁻⁸", "m²·rad/m")),
         (1000, "", ("1000", "")),
         (0, "N/m", ("0", "N/m")),
         (True, "", ("yes", "")),
         (None, "m", ("none", "")),
         ("wheel_column", "", ("wheel_column", "")),
+        ([0.0, 0.01], "m", ("0, 10", "mm")),
+        ([18.0, 18.3], "m", ("18, 18.3", "m")),
         ([0.08, 20.0], "rad/m", ("0.08, 20", "rad/m")),
     ],
 )

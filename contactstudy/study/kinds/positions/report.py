@@ -25,7 +25,10 @@ _METHOD = (
     "the gap is the signed distance of the smooth surfaces along the rail's normal, contact is "
     "frictionless, and every patch is found and solved by itself. The contact position is the "
     "centroid of the overlap of the undeformed bodies, weighted with the square of its depth; the "
-    "approach is the largest overlap; the area counts the cells under pressure."
+    "approach is the largest overlap; the area counts the cells under pressure, so it moves in "
+    "steps of a cell. Where tread, gauge corner or flange touch at once, a position has several "
+    "patches, each with a row and its own approach; curves jump where the contact moves from one "
+    "to another."
 )
 
 

@@ -16,6 +16,7 @@ from contactstudy.study.kinds.passage.report.stress_table import stress_tables
 from contactstudy.study.kinds.passage.report.tables import error_tables, passing_table, run_table
 from contactstudy.study.results import StudyResults
 
+_NOT_GENERATED = ("smooth", "sinusoid", "measured", None)
 # Parts of the results in their order, with the figures that belong to each.
 _PARTS = (
     ("Map", ("trust_map",)),
@@ -50,9 +51,18 @@ def report(results: StudyResults, timings: bool = False) -> Report:
         sources=_sources(results),
         parts=[*parts, *_errors(results)],
         as_companion=_as_companion(results, parts, timings),
+        topics=_topics(results),
         model="model.typ",
         limits="limits.typ",
     )
+
+
+def _topics(results: StudyResults) -> list[str]:
+    """Sections of the model that the study needs."""
+    found = {str(run.get("solver")) for run in results.config.get("runs", {}).values()}
+    if results.config.get("irregularity", {}).get("spectrum") not in _NOT_GENERATED:
+        found.add("irregularity")
+    return sorted(found | ({"errors"} if results.reference else set()))
 
 
 def _subject(results: StudyResults, timings: bool) -> list[Block]:
@@ -88,7 +98,9 @@ def _parts(results: StudyResults) -> list[Part]:
         if title == "Contact force" and own:
             blocks.insert(0, text(EXPLAINED))
         if title == "Contact patch":
-            blocks += stress_tables(results)
+            after = [k for k, d in enumerate(own) if d.name.startswith("stress_below")]
+            at = after[-1] + 1 if after else len(blocks)
+            blocks[at:at] = stress_tables(results)
         if title == "The ladder":
             blocks += rung_tables(results)
         profile = irregularity_of(results).profile if title == "Irregularity" else None
@@ -132,7 +144,7 @@ def _errors(results: StudyResults) -> list[Part]:
 
 def _as_companion(results: StudyResults, parts: list[Part], timings: bool) -> list[Part]:
     """Runs; then for a smooth rail the passing frequencies alone, else all parts."""
-    blocks: list[Any] = [*paragraphs(results.description), run_table(results, timings)]
+    blocks: list[Any] = [*paragraphs(results.description), run_table(results, timings, False)]
     runs = {"title": "Runs", "blocks": blocks}
     passing = passing_table(results)
     if passing is None or not is_smooth(results):

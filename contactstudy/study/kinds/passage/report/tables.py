@@ -65,8 +65,11 @@ def _value(value: Any, unit: str, before: str = "") -> str:
     return f", {before}{shown} {prefixed}"
 
 
-def run_table(results: StudyResults, timings: bool) -> Block:
-    """Sizes of all runs; with `timings` also seconds and memory, which depend on the machine."""
+def run_table(results: StudyResults, timings: bool, noted: bool = True) -> Block:
+    """Sizes of all runs; with `timings` also seconds and memory, which depend on the machine.
+
+    A note says where those are, once a report: `noted`.
+    """
     columns = ["Run", "Rail", "Contact", "DOFs", "Steps", "Time step (µs)"]
     if timings:
         columns += ["Setup (s)", "Stepping (s)", "Memory (MB)"]
@@ -87,7 +90,7 @@ def run_table(results: StudyResults, timings: bool) -> Block:
         else "Times and memory depend on the machine: see metrics.json beside this report."
     )
     reference = f" Reference: {label(results.reference)}." if results.reference else ""
-    return table(columns, rows, f"Runs and their sizes.{reference}", 3, note)
+    return table(columns, rows, f"Runs and their sizes.{reference}", 3, note if noted else "")
 
 
 def error_tables(results: StudyResults) -> list[Block]:
@@ -112,6 +115,7 @@ def error_tables(results: StudyResults) -> list[Block]:
                     rows,
                     f"{signal.label}: errors against {label(str(results.reference))}.",
                 )
+                | {"size": 8}
             )
     return made
 
