@@ -33,8 +33,12 @@ def at_rest(run: xr.Dataset, name: str) -> Array:
 
 
 def position(run: xr.Dataset) -> Array:
-    """Position (time,) along the track in m."""
-    return values(run, "position")
+    """Position (time,) along the track in m; of a run backward the way from its start, negative.
+
+    It increases, which norms over positions need.
+    """
+    x = values(run, "position")
+    return -x if run.attrs.get("travel") == "backward" else x
 
 
 def speed(run: xr.Dataset) -> float:

@@ -10,12 +10,15 @@ positive r raises the running surface. Literal eq. (6), f_r = (N, -1) k_r r, pus
 and the wheel down for positive r, so its positive r is a dip: r here is minus the paper's.
 """
 
+import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
-from contactstudy.arrays import Array, IntArray
-from contactstudy.contact.laws import Law, point_forces
+from contactstudy.arrays import Array, BoolArray, IntArray
+from contactstudy.contact.laws import Law, MovingForce, point_forces
+from contactstudy.contact.two_directions import forces_in_two_directions
 from contactstudy.dynamics.banded import Factor
 from contactstudy.dynamics.columns import LocalColumns, add_columns, compliance
 from contactstudy.dynamics.rows import add_rows, row_values
@@ -24,49 +27,53 @@ from contactstudy.dynamics.stepper import ContactStep
 
 @dataclass(frozen=True)
 class PointGaps:
-    """Gap of every wheel at every state, g = B u + c lambda - r, r (n_times, nw) in m.
+    """Gap of every contact at every state, g = B u + c lambda - r, r (n_times, nc) in m.
 
     Parameters
     ----------
-    dofs, weights : ndarray (n_times, nw, k)
-        Rows B.
-    compliance : ndarray (n_times, nw)
+    wheels : tuple of ndarray
+        Dofs and weights (nc, j) of the wheels at the contact: +1 for a displacement, then those
+        of elastic modes.
+    rail : callable
+        From the step to dofs and weights (nc, k) of the rail's row N.
+    compliance : ndarray (n_times, nc)
         c [m/N]. Two wheels within one element do not share it: each feels its own.
-    shape : ndarray (n_times, nw, m)
+    shape : ndarray (n_times, nc, m)
         Of the profile under each wheel, for the laws of `contact.patch_laws` [m]; else m = 0.
     """
 
-    dofs: IntArray
-    weights: Array
+    wheels: tuple[IntArray, Array]
+    rail: Callable[[int], tuple[IntArray, Array]]
     compliance: Array
     irregularity: Array
     shape: Array
 
-    @staticmethod
-    def rows(
-        wheel_dofs: IntArray, wheel_weights: Array, rail_dofs: IntArray, rail_weights: Array
-    ) -> tuple[IntArray, Array]:
-        """B from the wheels' rows (nw, j), j = 1 without modes, less the rail's (n_times, nw, k-j).
-
-        Weights of a wheel: +1 for its displacement, then those of its modes at the contact.
-        """
-        shape = (*rail_dofs.shape[:2], wheel_dofs.shape[1])
-        dofs = np.concatenate((np.broadcast_to(wheel_dofs, shape), rail_dofs), axis=2)
-        wheel = np.broadcast_to(wheel_weights, shape)
-        return dofs, np.concatenate((wheel, -rail_weights), axis=2)
+    def rows(self, step: int) -> tuple[IntArray, Array]:
+        """Dofs and weights (nc, j + k) of B: the wheels' less the rail's."""
+        (wheel_dofs, wheel), (rail_dofs, rail) = self.wheels, self.rail(step)
+        return np.hstack((wheel_dofs, rail_dofs)), np.hstack((wheel, -rail))
 
 
 @dataclass(frozen=True)
 class PointCoupling:
     """One point under every wheel, with all positions known in advance; it has no memory.
 
-    Static loads (nw,) in N; bilateral: the contact holds in tension (lateral direction).
+    Parameters
+    ----------
+    static_loads : ndarray
+        (nc,) [N].
+    bilateral : bool
+        The contacts hold in tension (a lateral analysis).
+    lateral : ndarray of bool, optional
+        (nc,) contacts beside the rail, by the linear spring `lateral_stiffness` [N/m].
     """
 
     law: Law
     gaps: PointGaps
     static_loads: Array
     bilateral: bool = False
+    lateral: BoolArray | None = None
+    lateral_stiffness: float = math.inf
 
     @property
     def accuracy(self) -> float:
@@ -80,6 +87,22 @@ class PointCoupling:
         """Join to a system."""
         return AttachedPoint(self, factor, scale)
 
+    def forces(self, step: int, compliance: Array, free_gap: Array) -> Array:
+        """Forces (nc,) at the end of a step, for W and g*."""
+        law, shape, loads = self.law, self.gaps.shape[step], self.static_loads
+        if self.lateral is None:
+            return point_forces(law, compliance, free_gap, loads, self.bilateral, shape)
+        if isinstance(law, MovingForce):
+            return loads
+        top = ~self.lateral
+        return forces_in_two_directions(
+            self.lateral,
+            self.lateral_stiffness,
+            compliance,
+            free_gap,
+            lambda W, g: point_forces(law, W, g, loads[top], False, shape[top]),
+        )
+
 
 class AttachedPoint:
     """A `PointCoupling` on the system with the compliance scale * S^-1.
@@ -91,20 +114,27 @@ class AttachedPoint:
         self._coupling, self._scale = coupling, scale
         self._columns, self._work = LocalColumns(factor), np.zeros(factor.n)
 
+    def compliance(self, step: int) -> Array:
+        """W (nc, nc) at a step [m/N]."""
+        return self._compliance(step, *self._coupling.gaps.rows(step))
+
+    def _compliance(self, step: int, dofs: IntArray, weights: Array) -> Array:
+        columns = self._columns.at(dofs)
+        # W_ij = (1-af) B_i S^-1 B_j^T, and the loaded element's own share on the diagonal
+        W: Array = self._scale * compliance(columns, dofs, weights, self._work)
+        W.flat[:: len(dofs) + 1] += self._coupling.gaps.compliance[step]
+        return W
+
     def __call__(self, step: int, u_free: Array, state: None) -> ContactStep:
         """Forces at the end of a step; every row adds up, two wheels in one element too."""
         coupling, gaps = self._coupling, self._coupling.gaps
-        dofs, weights, local = gaps.dofs[step], gaps.weights[step], gaps.compliance[step]
-        columns = self._columns.at(dofs)
-        # W_ij = (1-af) B_i S^-1 B_j^T, and the loaded element's own share on the diagonal
-        W = self._scale * compliance(columns, dofs, weights, self._work)
-        W.flat[:: len(dofs) + 1] += local
+        dofs, weights = gaps.rows(step)
+        W = self._compliance(step, dofs, weights)
         free_gap = row_values(dofs, weights, u_free) - gaps.irregularity[step]
-        loads, bilateral = coupling.static_loads, coupling.bilateral
-        force = point_forces(coupling.law, W, free_gap, loads, bilateral, gaps.shape[step])
+        force = coupling.forces(step, W, free_gap)
         load, increment = np.zeros_like(u_free), np.zeros_like(u_free)
         add_rows(dofs, weights, force, load)
+        columns = self._columns.at(dofs)
         add_columns(columns, dofs, weights, self._scale * force, increment)
-        return ContactStep(
-            load, increment, {"contact_force": force, "rail_residual": -local * force}
-        )
+        residual = -gaps.compliance[step] * force
+        return ContactStep(load, increment, {"contact_force": force, "rail_residual": residual})

@@ -12,7 +12,7 @@ the contact forces on the gap rows B (+1 on the wheel, minus the rail's row). A 
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 
@@ -34,6 +34,7 @@ __all__ = [
     "ContactStep",
     "Coupling",
     "Integrator",
+    "SharedCompliance",
     "State",
     "Steps",
     "average_acceleration",
@@ -83,6 +84,14 @@ class AttachedCoupling(Protocol):
         state
             Contact state at the end of the step before.
         """
+
+
+@runtime_checkable
+class SharedCompliance(Protocol):
+    """An attached coupling that tells how its contacts move each other."""
+
+    def compliance(self, step: int) -> Array:
+        """(nc, nc) growth of the gaps at a step for unit contact forces [m/N]."""
 
 
 class Coupling(Protocol):

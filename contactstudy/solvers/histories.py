@@ -33,12 +33,9 @@ class Histories(Watch):
     """
 
     def __init__(self, passage: Passage[DiscreteTrack]) -> None:
-        self._passage, self._wheels = passage, passage.wheel_dofs
+        self._passage, self._wheels, self._rails = passage, passage.wheels, passage.rail_rows
         track, stations = passage.track, passage.journey.stations
         shape = passage.positions.shape
-        self._rail = [
-            rows.reshape(*shape, -1) for rows in track.rail_rows(passage.positions.ravel())
-        ]
         self._at_stations = track.rail_rows(np.asarray(stations, dtype=float))
         self._stations = np.empty((shape[0], len(stations)))
         self._wheel_u, self._wheel_a = np.empty(shape), np.empty(shape)
@@ -48,34 +45,47 @@ class Histories(Watch):
     def see(self, state: State) -> None:
         """Record a state."""
         assert state.contact is not None
-        step, u, record = state.step, state.u, state.contact.record
+        step, u, a, record = state.step, state.u, state.a, state.contact.record
         if not self._contact:
             n_times = len(self._rail_u)
             self._contact = {k: np.empty((n_times, *np.shape(v))) for k, v in record.items()}
         for name, value in record.items():
             self._contact[name][step] = value
-        self._wheel_u[step], self._wheel_a[step] = u[self._wheels], state.a[self._wheels]
-        dofs, weights = self._rail
-        self._rail_u[step] = row_values(dofs[step], weights[step], u)
-        self._rail_a[step] = row_values(dofs[step], weights[step], state.a)
+        rail = self._rails.at(step)
+        self._wheel_u[step], self._wheel_a[step] = (row_values(*self._wheels, x) for x in (u, a))
+        self._rail_u[step], self._rail_a[step] = (row_values(*rail, x) for x in (u, a))
         if self._stations.size:
             self._stations[step] = row_values(*self._at_stations, u)
 
     def into(self, data: xr.Dataset) -> xr.Dataset:
         """The labelled histories, with the attributes of a dataset."""
-        contact = dict(self._contact)
+        contact, passage = dict(self._contact), self._passage
+        top, beside = ~passage.lateral, passage.lateral
+        force = contact.pop("contact_force")
+        rail_u = self._rail_u + contact.pop("rail_residual")
+        found = {
+            "contact_force": force[:, top],
+            "wheel_displacement": self._wheel_u[:, top],
+            "wheel_acceleration": self._wheel_a[:, top],
+            "rail_displacement": rail_u[:, top],
+            "rail_acceleration": self._rail_a[:, top],
+            "irregularity": passage.roughness[:, top],
+            **contact,
+        }
+        if beside.any():
+            # the rail gets the contact's force the other way round, and so is pushed to +Y
+            found |= {
+                "lateral_force": -force[:, beside],
+                "wheel_lateral": self._wheel_u[:, beside],
+                "wheel_lateral_acceleration": self._wheel_a[:, beside],
+                "rail_lateral": rail_u[:, beside],
+                "rail_lateral_acceleration": self._rail_a[:, beside],
+                "lateral_irregularity": passage.roughness[:, beside],
+            }
         return history_dataset(
-            self._passage.journey,
-            self._passage.positions,
-            {
-                "contact_force": contact.pop("contact_force"),
-                "wheel_displacement": self._wheel_u,
-                "wheel_acceleration": self._wheel_a,
-                "rail_displacement": self._rail_u + contact.pop("rail_residual"),
-                "rail_acceleration": self._rail_a,
-                "irregularity": self._passage.roughness,
-                **contact,
-            },
+            passage.journey,
+            passage.positions[:, top],
+            found,
             station_displacement=self._stations,
             attrs=data.attrs,
         )

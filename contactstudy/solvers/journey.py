@@ -3,7 +3,7 @@
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Annotated
+from typing import Annotated, Literal
 
 import numpy as np
 
@@ -12,6 +12,8 @@ from contactstudy.track.model import Track
 from contactstudy.validation import AtLeast, Key, Naming, Parameters, Unit, Usual, complaint
 from contactstudy.validation import quantities as q
 from contactstudy.vehicle import Vehicle
+
+Travel = Literal["forward", "backward"]
 
 STEPS_A_WAVE = 40
 """Time steps a wave of a sinusoid, if the time step is left out."""
@@ -42,6 +44,17 @@ class Journey(Parameters):
     stations: Annotated[
         tuple[float, ...], Unit("m"), AtLeast(0), "where the rail's displacement is recorded"
     ] = ()
+    travel: Annotated[Travel, Key(""), "to +X, or to -X from the far end of the track"] = "forward"
+
+    def over_bridge(self, length: float, behind: float) -> "Journey":
+        """The same with what was left out fitted to a track on a bridge of a length [m].
+
+        It starts with the leading wheel where the track begins, and ends when the last one,
+        `behind` it [m], leaves the track.
+        """
+        start = self.start if self.given("start") else 0.0
+        end = self.end if self.given("end") else length + behind
+        return self.changed(start=start, end=end)
 
     def fitting(self, wavelength: float, bay: float) -> "Journey":
         """The same with what was left out fitted to a sinusoid of a wavelength [m].
@@ -123,6 +136,8 @@ class Journey(Parameters):
         Without a vehicle it is one wheel; `key` gives the caller's name of a field.
         """
         key = key or (lambda name: f"Journey.{name}")
+        if track.structure is not None:
+            return self._problems_on_bridge(track, vehicle, key)
         where = f"must lie on the track, 0 to {track.length:g} m"
         points = {key("start"): self.start, key("end"): self.end}
         points |= {f"{key('stations')}.{i}": x for i, x in enumerate(self.stations)}
@@ -136,3 +151,20 @@ class Journey(Parameters):
             allowed = f"must leave room for the last wheel, {behind:g} m behind the first"
             problems.append(complaint(key("start"), self.start, allowed))
         return problems
+
+    def _problems_on_bridge(self, track: Track, vehicle: Vehicle | None, key: Naming) -> list[str]:
+        """As above, where wheels come from the ground before the track and leave to that behind."""
+        behind = 0.0 if vehicle is None else -float(np.min(vehicle.wheel_offsets))
+        problems, last = [], track.length + behind
+        if self.start >= track.length:
+            allowed = f"must be before the end of the track, {track.length:g} m"
+            problems.append(complaint(key("start"), self.start, allowed))
+        if self.end > last * (1.0 + 1e-9):
+            allowed = f"must be at most {last:g} m, where the last wheel leaves the track"
+            problems.append(complaint(key("end"), self.end, allowed))
+        where = f"must lie on the track, 0 to {track.length:g} m"
+        return problems + [
+            complaint(f"{key('stations')}.{i}", x, where)
+            for i, x in enumerate(self.stations)
+            if x > track.length
+        ]

@@ -1,19 +1,26 @@
 """Wheels that run over a track: what both solvers start from."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Generic, TypeVar
 
 import numpy as np
 
-from contactstudy.arrays import Array, IntArray
+from contactstudy.arrays import Array, BoolArray, IntArray
 from contactstudy.contact.filters import ContactFilter
 from contactstudy.contact.patch_laws import PatchLaw
 from contactstudy.dynamics.banded import LinearSystem
-from contactstudy.irregularity import Profile, faded
+from contactstudy.dynamics.rows import add_rows
+from contactstudy.irregularity import Profile, SmoothRail, faded
+from contactstudy.irregularity.mirrored import mirrored
+from contactstudy.irregularity.rails import RailProfiles
 from contactstudy.solvers.journey import Journey
+from contactstudy.solvers.travelling import TravellingRows
 from contactstudy.track.discrete import DiscreteTrack
-from contactstudy.vehicle import Vehicle
+from contactstudy.track.rail import Direction
+from contactstudy.track.structure import StructureTrack
+from contactstudy.vehicle import Vehicle, turned
 
 T = TypeVar("T", bound=DiscreteTrack, covariant=True)
 
@@ -26,13 +33,14 @@ class Passage(Generic[T]):
     ----------
     track : DiscreteTrack
         Static loads act in its direction "Z" only.
-    irregularity : Profile
-        r(X), positive raises the running surface, before it is faded in.
+    irregularity : Profile or RailProfiles
+        r(X), positive raises the running surface, before it is faded in; of each rail and
+        direction, or of the vertical one of both rails.
     """
 
     track: T
     vehicle: Vehicle
-    irregularity: Profile
+    irregularity: Profile | RailProfiles
     journey: Journey
 
     @property
@@ -45,14 +53,41 @@ class Passage(Generic[T]):
         """Number of dofs of track and vehicle."""
         return self.track.n_dofs + self.vehicle.n_dofs
 
+    @cached_property
+    def _running(self) -> Vehicle:
+        """The vehicle as it stands on the track."""
+        return turned(self.vehicle) if self.journey.travel == "backward" else self.vehicle
+
     @property
     def wheel_dofs(self) -> IntArray:
-        """(nw,) dofs of the system that are wheels."""
+        """(nw,) dofs of the system that are wheels, of a planar vehicle."""
         return self.track.n_dofs + np.asarray(self.vehicle.wheel_dofs, dtype=np.int64)
+
+    @cached_property
+    def wheels(self) -> tuple[IntArray, Array]:
+        """Dofs of the system and weights (nc, j) of the tread's displacement at each contact."""
+        rows = self._running.contact_rows
+        most = max(1, int(np.count_nonzero(rows, axis=1).max()))
+        dofs = np.argsort(rows == 0.0, axis=1, kind="stable")[:, :most]
+        return self.track.n_dofs + dofs, np.take_along_axis(rows, dofs, axis=1)
+
+    @property
+    def directions(self) -> tuple[Direction, ...]:
+        """Direction of each contact; of a planar vehicle the track's."""
+        vehicle = self.vehicle
+        if vehicle.planar:
+            return (self.track.direction,) * vehicle.n_contacts
+        return tuple("Y" if one == "Y" else "Z" for one in vehicle.contact_directions)
+
+    @property
+    def lateral(self) -> BoolArray:
+        """(nc,) contacts beside the rail, where others are on top of it."""
+        there = np.array([one == "Y" for one in self.directions])
+        return there if not there.all() else np.zeros_like(there)
 
     @property
     def static_loads(self) -> Array:
-        """(nw,) static load of each wheel in the direction of the analysis [N]."""
+        """(nc,) static load of each contact in the direction of the analysis [N]."""
         loads = np.asarray(self.vehicle.static_loads, dtype=float)
         return loads if self.track.direction == "Z" else np.zeros_like(loads)
 
@@ -60,28 +95,64 @@ class Passage(Generic[T]):
     def external(self) -> Array:
         """(n_dofs,) constant load: minus the static load on each wheel."""
         load = np.zeros(self.n_dofs)
-        np.add.at(load, self.wheel_dofs, -self.static_loads)
+        add_rows(*self.wheels, -self.static_loads, load)
         return load
 
     @cached_property
+    def way(self) -> Array:
+        """Way of each contact from the end of the track where it enters, (n_times, nc) m."""
+        return self.journey.wheel_positions(self.vehicle.contact_offsets)
+
+    @cached_property
     def positions(self) -> Array:
-        """X of each wheel at each state, (n_times, nw) m."""
-        return self.journey.wheel_positions(self.vehicle.wheel_offsets)
+        """X of each contact at each state, (n_times, nc) m."""
+        if self.journey.travel == "backward":
+            return self.track.track.length - self.way
+        return self.way
+
+    @cached_property
+    def rail_rows(self) -> TravellingRows:
+        """Rows of the rail under each contact."""
+        rails = self._running.contact_rails
+        return TravellingRows(self.track, self.positions, rails, self.directions)
 
     @cached_property
     def roughness(self) -> Array:
-        """(n_times, nw) r under each wheel, faded in from its start [m]."""
+        """(n_times, nc) r at each contact, faded in from its start [m]."""
         return self.felt()
 
     def felt(self, contact_filter: ContactFilter | None = None) -> Array:
-        """(n_times, nw) what each wheel feels of the faded irregularity [m]; r without a filter."""
-        felt = contact_filter or (lambda level, x: level(x))
-        ways = np.ascontiguousarray(self.positions.T)
-        return np.column_stack([felt(self.faded(k), x) for k, x in enumerate(ways)])
+        """(n_times, nc) what each contact feels of the faded irregularity [m]; r without a filter.
+
+        Lateral contacts have no filter.
+        """
+
+        def along(contact: int, x: Array) -> Array:
+            lateral = contact_filter is None or self.directions[contact] == "Y"
+            level = self.faded(contact)
+            return level(x) if lateral or contact_filter is None else contact_filter(level, x)
+
+        found = self._each(along)
+        if isinstance(self.track, StructureTrack):
+            found *= self.track.on_track(self.positions)  # none on the ground beyond its ends
+        return found
+
+    def _each(self, along: Callable[[int, Array], Array]) -> Array:
+        """A function of contact and way (n_times,), once for contacts on one rail at one place."""
+        found = np.empty(self.way.shape)
+        rails, known = self.vehicle.contact_rails, dict[tuple[object, ...], int]()
+        for k, x in enumerate(np.ascontiguousarray(self.way.T)):
+            same = int(rails[k]), self.directions[k], float(x[0])
+            if isinstance(self.irregularity, RailProfiles) or same[1] == "Y":
+                first = known.setdefault(same, k)
+            else:
+                first = known.setdefault(same[1:], k)
+            found[:, k] = along(k, x) if first == k else found[:, first]
+        return found
 
     def seen(self, law: PatchLaw) -> tuple[Array, Array]:
         """What each wheel feels at first touch (n_times, nw), the shape (n_times, nw, m) [m]."""
-        ways = np.ascontiguousarray(self.positions.T)
+        ways = np.ascontiguousarray(self.way.T)
         seen = [law.seen(self.faded(k), x) for k, x in enumerate(ways)]
         m = max(shape.shape[1] for _, shape in seen)
         # where a bedding reaches less far: never touched
@@ -91,6 +162,19 @@ class Passage(Generic[T]):
         ]
         return np.column_stack([felt for felt, _ in seen]), np.stack(shapes, axis=1)
 
-    def faded(self, wheel: int) -> Profile:
-        """The irregularity as a wheel meets it, faded in from its start."""
-        return faded(self.irregularity, float(self.positions[0, wheel]), self.journey.fade_in)
+    def faded(self, contact: int) -> Profile:
+        """The irregularity over the way of a contact, faded in from its start on the track."""
+        profile, start = self._profile(contact), float(self.way[0, contact])
+        if self.journey.travel == "backward":
+            profile = mirrored(profile, self.track.track.length)
+        if isinstance(self.track, StructureTrack):
+            start = max(start, 0.0)
+        return faded(profile, start, self.journey.fade_in)
+
+    def _profile(self, contact: int) -> Profile:
+        rails, direction = self._running.contact_rails, self.directions[contact]
+        if isinstance(self.irregularity, RailProfiles):
+            return self.irregularity.of(int(rails[contact]), direction)
+        if direction == "Y" and self.lateral[contact]:
+            return SmoothRail()
+        return self.irregularity

@@ -21,6 +21,7 @@ from contactstudy.contact.point_coupling import PointCoupling, PointGaps
 from contactstudy.contact.point_wheel import PointWheel
 from contactstudy.dynamics.stepper import Integrator, average_acceleration, generalised_alpha
 from contactstudy.irregularity import Profile
+from contactstudy.irregularity.rails import RailProfiles
 from contactstudy.solvers.journey import Journey
 from contactstudy.solvers.observers import Observer
 from contactstudy.solvers.passage import Passage
@@ -29,13 +30,17 @@ from contactstudy.solvers.run import run_through
 from contactstudy.track.beam import BeamTrack
 from contactstudy.track.discrete import DiscreteTrack, not_discrete
 from contactstudy.track.model import Direction, Track
-from contactstudy.validation import raise_if
+from contactstudy.track.structure import StructureTrack
+from contactstudy.validation import positive, raise_if
 from contactstudy.vehicle import Vehicle
 
 if TYPE_CHECKING:
     import xarray as xr
 
 
+LATERAL_STIFFNESS = 1e9
+"""N/m, of the contact across the rail without slip: 0.8 of the normal tangent of 1.2 GN/m, the
+ratio 2(1 - nu)/(2 - nu) of R. D. Mindlin, J. Appl. Mech. 16 (1949) 259."""
 RIGID_SPECTRAL_RADIUS = 0.5
 """Spectral radius of the integrator that a rigid contact gets when none is asked for."""
 
@@ -43,12 +48,13 @@ RIGID_SPECTRAL_RADIUS = 0.5
 def point_contact(
     track: Track | DiscreteTrack,
     vehicle: Vehicle,
-    irregularity: Profile,
+    irregularity: Profile | RailProfiles,
     journey: Journey,
     *,
     law: ContactLaw | PatchLaw,
     contact_filter: ContactFilter | None = None,
     wheel: PointWheel | None = None,
+    lateral_stiffness: float = LATERAL_STIFFNESS,
     observers: Sequence[Observer] = (),
     integrator: Integrator | None = None,
 ) -> xr.Dataset:
@@ -57,16 +63,19 @@ def point_contact(
     Parameters
     ----------
     track : Track or DiscreteTrack
-        A discretised track, such as `BeamTrack(Track(), "timoshenko", elements_per_bay=8)` or a
-        `SolidTrack`. A `Track` gets the paper's beam, `BeamTrack(track)`. In the lateral
-        direction (`BeamTrack(track, direction="Y")`) there is no static load and the contact
-        holds in tension.
-    irregularity : Profile
-        r(X), positive raises the running surface. It is faded in from each wheel's start.
+        A discretised track, such as `BeamTrack(Track(), "timoshenko", elements_per_bay=8)`, a
+        `SolidTrack` or a `StructureTrack`. A `Track` gets the paper's beam, `BeamTrack(track)`, or
+        with a bridge a `StructureTrack`. In the lateral direction (`BeamTrack(track,
+        direction="Y")`) there is no static load and the contact holds in tension.
+    irregularity : Profile or RailProfiles
+        r(X), positive raises the running surface; on two rails that of both, or of each. It is
+        faded in from each wheel's start.
     contact_filter : ContactFilter, optional
         What the contact makes of the irregularity, see `contactstudy.contact.filters`.
     wheel : PointWheel, optional
         Elastic modes of the vehicle's one wheel.
+    lateral_stiffness : float
+        k_y of the linear spring of lateral contacts beside vertical ones [N/m].
     observers : sequence of Observer
         Watch the run, such as `solvers.observers.ReportProgress`.
     integrator : Integrator, optional
@@ -92,9 +101,10 @@ def point_contact(
     if integrator is None:
         rigid = isinstance(law, RigidContact)
         integrator = generalised_alpha(RIGID_SPECTRAL_RADIUS) if rigid else average_acceleration()
-    discrete = BeamTrack(track) if isinstance(track, Track) else track
+    discrete = _discretised(track, vehicle) if isinstance(track, Track) else track
     raise_if(not_discrete(discrete))
-    problems = journey.problems_on(discrete.track, vehicle) + vehicle.problems_on_one_rail()
+    problems = journey.problems_on(discrete.track, vehicle) + problems_of_rails(discrete, vehicle)
+    problems += positive("lateral_stiffness", lateral_stiffness, "N/m")
     problems += _law_problems(law, contact_filter, discrete.direction, integrator)
     for observer in observers:
         problems += observer.problems_on(journey)
@@ -102,7 +112,7 @@ def point_contact(
 
     moving = vehicle if wheel is None else wheel.on(vehicle)
     passage = Passage(discrete, moving, irregularity, journey)
-    coupling = point_coupling(passage, law, contact_filter, wheel)
+    coupling = point_coupling(passage, law, contact_filter, wheel, lateral_stiffness)
     setup = time.perf_counter() - began
     told = {"solver": "point", **described_rail(discrete), **described_law(law)}
     if wheel is not None:
@@ -113,40 +123,60 @@ def point_contact(
     return data
 
 
+def _discretised(track: Track, vehicle: Vehicle) -> DiscreteTrack:
+    """The paper's beam, or the track on a bridge in the motions that the vehicle has."""
+    if track.structure is None:
+        return BeamTrack(track)
+    return StructureTrack(track, planar="Y" not in vehicle.contact_directions)
+
+
+def problems_of_rails(track: DiscreteTrack, vehicle: Vehicle) -> list[str]:
+    """Complaints about a vehicle with contacts that the track's rails cannot have."""
+    if not isinstance(track, StructureTrack):
+        return vehicle.problems_on_one_rail()
+    if track.planar and "Y" in vehicle.contact_directions:
+        return ["vehicle: has lateral contacts; a planar track moves vertically only"]
+    if not track.planar and vehicle.planar:
+        return ["vehicle: has contacts on one rail; a track in space needs them on both"]
+    return []
+
+
 def point_coupling(
     passage: Passage[DiscreteTrack],
     law: ContactLaw | PatchLaw,
     contact_filter: ContactFilter | None = None,
     wheel: PointWheel | None = None,
+    lateral_stiffness: float = LATERAL_STIFFNESS,
 ) -> PointCoupling:
     """Join a law to all wheel positions of a passage."""
     track, x, shape = passage.track, passage.positions.ravel(), passage.positions.shape
-    dofs, weights = track.rail_rows(x)
     felt, along = passage.felt(contact_filter), np.zeros((*shape, 0))
     if isinstance(law, PatchLaw):
         felt, along = passage.seen(law)
     # a spring gives back no more than it stands for
     top = np.maximum(track.top_load_compliance(x), -law.softness)
     gaps = PointGaps(
-        *PointGaps.rows(
-            *_wheel_rows(passage, wheel), dofs.reshape(*shape, -1), weights.reshape(*shape, -1)
-        ),
+        _wheel_rows(passage, wheel),
+        passage.rail_rows.at,
         (track.local_compliance(x) + top).reshape(shape),
         felt,
         along,
     )
-    return PointCoupling(law, gaps, passage.static_loads, bilateral=track.direction == "Y")
+    lateral = passage.lateral if passage.lateral.any() else None
+    return PointCoupling(
+        law, gaps, passage.static_loads, track.direction == "Y", lateral, lateral_stiffness
+    )
 
 
 def _wheel_rows(
     passage: Passage[DiscreteTrack], wheel: PointWheel | None
 ) -> tuple[IntArray, Array]:
-    """Dofs and weights (nw, j) of the wheels' displacement at the contact, up."""
-    dofs = passage.wheel_dofs[:, None]
+    """Dofs and weights (nc, j) of the wheels' displacement at the contact."""
+    dofs, weights = passage.wheels
     if wheel is None:
-        return dofs, np.ones(dofs.shape)
+        return dofs, weights
     n, m = passage.n_dofs, len(wheel.shapes)
-    return np.hstack([dofs, np.arange(n - m, n)[None]]), np.r_[1.0, wheel.shapes][None]
+    return np.hstack([dofs, np.arange(n - m, n)[None]]), np.hstack([weights, wheel.shapes[None]])
 
 
 def _law_problems(

@@ -34,7 +34,7 @@ def run_through(
     began = time.perf_counter()
     journey, system, external = passage.journey, passage.system, passage.external
     watches = [Histories(passage), *(o.watch(passage, coupling) for o in observers)]
-    start = static_start(system, coupling, external, passage.wheel_dofs)
+    start = static_start(system, coupling, external, passage.wheels)
     steps = Steps(journey.time_step, journey.n_steps, lambda k: float(passage.positions[k, 0]))
     states = march(system, coupling, start, steps, integrator, external)
     # the first step factors the matrices and loads compiled code, which is setup
@@ -52,8 +52,9 @@ def run_through(
             **(attrs or {}),
             "integrator": integrator.name,
             "direction": passage.track.direction,
-            "static_load": [float(load) for load in passage.static_loads],
+            "static_load": [float(load) for load in passage.static_loads[~passage.lateral]],
             "speed": journey.speed,
+            "travel": journey.travel,
             "fade_in": journey.fade_in,
             "dofs": passage.n_dofs,
             "steps": journey.n_steps,

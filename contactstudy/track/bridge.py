@@ -6,7 +6,7 @@ import itertools
 import re
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 import numpy as np
 
@@ -97,8 +97,8 @@ class Bridge(Parameters):
     A track's supports stand on it as on the ground: their layer, sleepers on ballast or a slab, is
     the same on the approaches. A deck is a beam; its axis, at Y = 0, runs through its centroids.
     The track lies beside it (`track_offset`) and above it (`track_height`). Two bearings stand
-    below each support of a deck. They hold it up and laterally, along the track at its first
-    support only. Each span is measured between its bearings.
+    below each support of a deck. They hold it up and laterally, along the track at one support
+    only. Each span is measured between its bearings.
 
     Wheels come from rigid ground: over the entry length their load passes smoothly to the
     track, and leaves it so at the other end.
@@ -138,6 +138,9 @@ class Bridge(Parameters):
     lateral_bearing_stiffness: Annotated[
         q.Stiffness, "of a bearing, across the track; along it that of the one support that holds"
     ] = 2e9
+    fixed_support: Annotated[
+        Literal["first", "last"], "of each deck, which holds it along the track"
+    ] = "first"
     piers: Annotated[
         Pier | None,
         Variants("piers", {"rigid": None, "column": Pier}, "what inner supports stand on"),

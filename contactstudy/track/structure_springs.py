@@ -146,12 +146,13 @@ class Bearings:
 
 
 def bearings(nodes: Nodes, axes: tuple[Axis, ...]) -> Iterator[Bearings]:
-    """All bearings; along the track only the first support of a deck holds, by one spring."""
+    """All bearings; along the track only the fixed support of a deck holds, by one spring."""
     bridge, size = nodes.bridge, N_DOFS * nodes.n
     half = 0.5 * bridge.bearing_distance
     for number, supports in enumerate(bridge.decks):
         for axis in axes:
-            x = supports[:1] if axis == "X" else supports
+            fixed = supports[:1] if bridge.fixed_support == "first" else supports[-1:]
+            x = fixed if axis == "X" else supports
             deck, tops = nodes.deck_node(number, x), nodes.pier_tops(x)
             k, c = bridge.lateral_bearing_stiffness, 0.0
             if axis == "Z":

@@ -11,7 +11,7 @@ from contactstudy.vehicle.lumped import (
     bare_wheel,
     wheel_column,
 )
-from contactstudy.vehicle.model import Vehicle, train, with_wheel_modes
+from contactstudy.vehicle.model import Vehicle, train, turned, with_wheel_modes
 
 VehicleTable = (
     WheelColumn | BareWheel | Bogie | Train | AxleLoads | HighSpeedLoadModel | FreightWagons
@@ -47,6 +47,7 @@ __all__ = [
     "WheelColumn",
     "bare_wheel",
     "train",
+    "turned",
     "wheel_column",
     "with_wheel_modes",
 ]

@@ -148,6 +148,21 @@ class Vehicle:
         ]
 
 
+def turned(vehicle: Vehicle) -> Vehicle:
+    """The vehicle running towards -X: turned by half a turn about Z.
+
+    Its right is the track's left, and its lateral displacements count against the track's.
+    """
+    if vehicle.planar:
+        return vehicle
+    across = np.array([direction == "Y" for direction in vehicle.contact_directions])
+    return replace(
+        vehicle,
+        contact_rows=np.where(across[:, None], -1.0, 1.0) * vehicle.contact_rows,
+        contact_rails=1 - np.asarray(vehicle.contact_rails),
+    )
+
+
 def with_wheel_modes(
     vehicle: Vehicle, frequencies: np.ndarray, participation: np.ndarray, damping: float
 ) -> Vehicle:

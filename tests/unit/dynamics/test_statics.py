@@ -10,6 +10,7 @@ from contactstudy.dynamics.stepper import ContactStep
 from contactstudy.exceptions import NumericalError
 
 STIFFNESS, LOAD = 1e9, 70e3
+WHEEL = np.array([[0]]), np.ones((1, 1))
 
 
 class Ground:
@@ -44,7 +45,9 @@ def free_wheel():
 
 @pytest.mark.parametrize("gap", [0.0, 0.05e-3, 0.7e-3, 4e-3])
 def test_the_wheel_stands_on_the_ground_however_far_below(gap):
-    state = static_start(free_wheel(), Ground(gap), np.array([-LOAD]), np.array([0]))
+    state = static_start(
+        free_wheel(), Ground(gap), np.array([-LOAD]), (np.array([[0]]), np.ones((1, 1)))
+    )
     assert state.contact.state == "in contact"
     assert state.contact.record["contact_force"][0] == pytest.approx(LOAD, rel=1e-9)
     assert state.u[0] == pytest.approx(-gap - LOAD / STIFFNESS, rel=1e-9)
@@ -52,4 +55,6 @@ def test_the_wheel_stands_on_the_ground_however_far_below(gap):
 
 def test_a_wheel_over_nothing_is_an_error_not_a_fall():
     with pytest.raises(NumericalError, match=r"5 mm below its place .* still carries nothing"):
-        static_start(free_wheel(), Ground(1.0), np.array([-LOAD]), np.array([0]))
+        static_start(
+            free_wheel(), Ground(1.0), np.array([-LOAD]), (np.array([[0]]), np.ones((1, 1)))
+        )
