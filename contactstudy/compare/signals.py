@@ -32,6 +32,14 @@ def at_rest(run: xr.Dataset, name: str) -> Array:
     return np.asarray(run[name].values, dtype=np.float64)[..., 0]
 
 
+def at_station(run: xr.Dataset, name: str, at: float | None) -> Array:
+    """Variable `name` (time,) at the station X [m], or of the leading wheel if that is None."""
+    if at is None:
+        return values(run, name)
+    nearest = int(np.argmin(np.abs(run["station"].values - at)))
+    return np.asarray(run[name].isel(station=nearest), dtype=np.float64)
+
+
 def position(run: xr.Dataset) -> Array:
     """Position (time,) along the track in m; of a run backward the way from its start, negative.
 

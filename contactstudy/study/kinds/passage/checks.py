@@ -11,6 +11,7 @@ from contactstudy.irregularity.depth_map import DepthMap
 from contactstudy.irregularity.flats import LocalDefect
 from contactstudy.profiles.wheel_file import wheel_dimensions, wheel_sections
 from contactstudy.solvers.journey import Journey
+from contactstudy.study.kinds.passage.record import MeasuredRecord
 from contactstudy.study.kinds.passage.relations import Related
 from contactstudy.study.kinds.passage.runs import PointRun, Run, SurfaceRun
 from contactstudy.study.kinds.passage.scan import ScanFiles
@@ -55,6 +56,9 @@ def combined(tables: Mapping[str, Any], runs: Mapping[str, Run]) -> list[str]:
         problems += [finding.text for finding in related.findings() if finding.wrong]
         if irregularity is not None and runs and vehicle is not None:
             problems += _defects(irregularity, journey, vehicle.wheel_radius)
+        record: MeasuredRecord | None = tables.get("measured")
+        if record is not None and record.used and runs:
+            problems += record.problems_on(journey)
     if solid is None:
         return problems
     meshed = any(run.needs_solid for run in runs.values())

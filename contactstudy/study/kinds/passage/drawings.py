@@ -5,6 +5,7 @@ from contactstudy.figures import (
     histories,
     irregularity,
     ladder,
+    measured,
     model,
     passing,
     patch,
@@ -20,8 +21,8 @@ from contactstudy.plot.drawing import Drawing
 from contactstudy.study.results import StudyResults
 
 _FAMILIES = (
-    model, trust, stiffness, ladder, irregularity, histories, bands, patch, patch_status, stress,
-    patch_history, section, press, passing,
+    model, trust, stiffness, ladder, measured, irregularity, histories, bands, patch, patch_status,
+    stress, patch_history, section, press, passing,
 )  # fmt: skip
 
 

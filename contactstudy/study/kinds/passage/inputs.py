@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from contactstudy.files import file_digest
 from contactstudy.irregularity.shown import to_dataset
@@ -14,18 +14,22 @@ from contactstudy.store import digest
 from contactstudy.study.kind import Inputs, Work
 from contactstudy.study.kinds.passage.build import journey, recipe
 from contactstudy.study.kinds.passage.contact import hertz
+from contactstudy.study.kinds.passage.held_against import to_dataset as record_dataset
 from contactstudy.study.kinds.passage.placing import contact_zone, scan_meeting
 from contactstudy.study.kinds.passage.remarks import remarks
-from contactstudy.study.kinds.passage.roughness import describe
+from contactstudy.study.kinds.passage.roughness import Described, describe
 from contactstudy.study.kinds.passage.runs import PointRun
 from contactstudy.study.kinds.passage.scan import PATHS as SCAN_PATHS
-from contactstudy.study.kinds.passage.schema import IRREGULARITY, Study
+from contactstudy.study.kinds.passage.schema import IRREGULARITY, MEASURED, Study
 from contactstudy.study.kinds.passage.touching import touched_beyond
 from contactstudy.study.kinds.passage.twins import all_pieces, untwinned
 from contactstudy.study.kinds.passage.wheelset import PATHS as WHEELSET_PATHS
 from contactstudy.validation import multiple
 from contactstudy.vehicle import Bogie, Train
 from contactstudy.vehicle.consist import car_file
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 #: Steps of a beam that take about as long as a process takes to start.
 LIGHT = 20_000
@@ -53,6 +57,10 @@ def read_inputs(study: Study) -> Inputs:
     if "wheelset" in config:
         contact_zone(study)  # refused before anything is computed
     _cars(config.get("vehicle", {}), files)
+    if "measured" in config:
+        path = Path(study.measured.file)
+        files[path.name] = file_digest(path)
+        config["measured"]["file"] = path.name
     section = study.solid.wheel_section
     if digest := named_file_digest(section):
         files[Path(section).name] = digest
@@ -72,10 +80,17 @@ def read_inputs(study: Study) -> Inputs:
         config,
         files,
         notes,
-        groups=lambda: {IRREGULARITY: to_dataset(described.info)},
+        groups=lambda: _groups(study, described),
         seed=config["irregularity"].get("seed"),
         mesh=lambda: asdict(recipe(study)) if meshed else None,
     )
+
+
+def _groups(study: Study, described: Described) -> dict[str, xr.Dataset]:
+    found = {IRREGULARITY: to_dataset(described.info)}
+    if study.runs and study.measured.used:
+        found[MEASURED] = record_dataset(study.measured)
+    return found
 
 
 def _cars(vehicle: dict[str, Any], files: dict[str, str]) -> None:
@@ -154,7 +169,7 @@ def _batch(study: Study, inputs: Inputs, run: str) -> str:
 def _run_inputs(study: Study, inputs: Inputs, run: str) -> list[Any]:
     """Everything that goes into one run, as plain data; the contents of files stand apart."""
     own = study.resolved_run(run)
-    apart = {"runs", "compare", "solid"} | (
+    apart = {"runs", "compare", "solid", "measured"} | (
         {"irregularity"} if own["irregularity"] == "smooth" else set()
     )
     shared = {k: v for k, v in inputs.config.items() if k not in apart}

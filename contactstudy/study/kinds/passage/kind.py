@@ -48,6 +48,7 @@ class PassageKind(Kind):
         "solid": "Solid rail and wheel",
         "wheelset": "Wheelset",
         "scan": "Scanned surfaces",
+        "measured": "Measured record",
     }
 
     load = later(f"{_HERE}.reading:load_passage")

@@ -14,6 +14,7 @@
         softer {k_r: part of the run's, relative_l2_dynamic} with ``compare.softer``,
         third_octave {nominal centre in Hz: level less the reference's in dB}, of bands in which
         the reference has content
+    measured:     with ``[measured]``, see `held_against`
     rungs.<name>: with ``compare.rungs``, the run ``above`` and the same norms against it
 
 Both signals are compared at equal wheel positions behind the fade-in; `contactstudy.compare.norms`
@@ -38,6 +39,7 @@ from contactstudy.arrays import Array
 from contactstudy.compare import norms
 from contactstudy.compare.bands import level_differences
 from contactstudy.compare.signals import WITHOUT_STATIC, at_rest, position, speed
+from contactstudy.study.kinds.passage.held_against import held_against
 from contactstudy.study.kinds.passage.schema import Study
 from contactstudy.study.kinds.passage.twins import SIGNALS, SMOOTH, SOFTER
 
@@ -58,7 +60,11 @@ def metrics(
     """Content of ``metrics.json``, the norms behind the fade-in."""
     compare_from = study.journey.start + study.journey.fade_in
     made = study_metrics(runs, costs, study.reference, compare_from)
-    return made | {"rungs": rungs(runs, compare_from)} if study.rungs else made
+    if study.rungs:
+        made["rungs"] = rungs(runs, compare_from)
+    if study.measured.used and runs:
+        made["measured"] = held_against(study.measured, runs)
+    return made
 
 
 def rungs(runs: Mapping[str, xr.Dataset], start: float) -> dict[str, Any]:

@@ -11,6 +11,7 @@ from contactstudy.irregularity import Irregularity
 from contactstudy.solvers.journey import Journey
 from contactstudy.study import study
 from contactstudy.study.kinds.passage.checks import combined
+from contactstudy.study.kinds.passage.record import MeasuredRecord
 from contactstudy.study.kinds.passage.runs import SOLVERS, PointRun, SurfaceRun
 from contactstudy.study.kinds.passage.scan import ScanFiles
 from contactstudy.study.kinds.passage.solid import Solid, spacing
@@ -39,11 +40,14 @@ SECTIONS: dict[str, Table] = {
     "solid": Solid,
     "wheelset": WheelsetPosition,
     "scan": ScanFiles,
+    "measured": MeasuredRecord,
 }
 """Tables of a study file."""
 _RUN_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 IRREGULARITY = "irregularity"
 """Group of the results with what Fig. 1 shows; so no run may have this name."""
+MEASURED = "measured"
+"""The same with a measured record."""
 
 
 @dataclass(frozen=True)
@@ -62,6 +66,7 @@ class Study(study.Study):
     solid: Solid = field(default_factory=Solid)
     wheelset: WheelsetPosition = field(default_factory=WheelsetPosition)
     scan: ScanFiles = field(default_factory=ScanFiles)
+    measured: MeasuredRecord = field(default_factory=MeasuredRecord)
     runs: dict[str, PointRun | SurfaceRun] = field(default_factory=dict)
     reference: Annotated[
         str | None, Key("compare.reference"),
@@ -172,6 +177,7 @@ class Study(study.Study):
         meshed = any(self.meshes_rail(run) for run in self.runs)
         placed = meshed and not self.solid.half
         used = {"solid": meshed, "wheelset": placed, "scan": placed and self.scan.used}
+        used["measured"] = self.measured.used
         return [key for key in SECTIONS if used.get(key, True)]
 
 
@@ -198,7 +204,7 @@ def wrong_runs(names: Iterable[str]) -> list[str]:
     for name in names:
         if not isinstance(name, str) or not _RUN_NAME.fullmatch(name):
             problems.append(f"runs.{name}: a run's name is letters, digits and _, a letter first")
-        elif name == IRREGULARITY:
+        elif name in (IRREGULARITY, MEASURED):
             problems.append(
                 f"runs.{name}: a run cannot be called '{name}', which names its own group"
             )

@@ -116,7 +116,7 @@ class Solid(Parameters):
             if not meshed:
                 return []  # the stiffness then is Hertz's
             drawn = any_of(name for name in RAILS.classes if name in NAMES)
-            allowed = f"what is meshed needs a rail with a drawn profile: {drawn}"
+            allowed = f"what is meshed needs a rail with a profile: {drawn}"
             problems.append(complaint("track.rail", RAILS.name(track.rail), allowed))
         if not whole(spacing(track) / self.cell_length):
             allowed = f"must divide {spacing(track):g} m into whole cells (m)"

@@ -35,7 +35,34 @@ def summary(results: StudyResults) -> list[Table]:
             "" if run["peak_memory_mb"] is None else f"{run['peak_memory_mb']:.0f}",
             *(_percent(norm, name == results.reference) for norm in norms),
         )
-    return [table] if runs else []
+    return [table, *_measured(results)] if runs else []
+
+
+def _measured(results: StudyResults) -> list[Table]:
+    """How each channel of a measured record agrees."""
+    found = results.metrics.get("measured", {}).get("runs", {})
+    if not found:
+        return []
+    table = Table(title="against the measured record", box=SIMPLE, collapse_padding=True)
+    table.add_column("run", no_wrap=True)
+    table.add_column("channel", no_wrap=True)
+    for heading in ("correlation", "peak ratio", "error", "timing ms", "shift s", "scale"):
+        table.add_column(heading, justify="right", no_wrap=True)
+    for name, one in found.items():
+        if "failure" in one:
+            table.add_row(name, one["failure"])
+        for column, channel in one.get("channels", {}).items():
+            table.add_row(
+                name,
+                column,
+                f"{channel['correlation']:.4f}",
+                f"{channel['peak_ratio']:.3f}",
+                f"{100 * channel['normalised_error']:.1f} %",
+                f"{1e3 * channel['timing']:.1f}",
+                f"{one['shift']:.4f}",
+                f"{one['scale']:.4g}",
+            )
+    return [table]
 
 
 def _percent(value: float | None, reference: bool) -> str:

@@ -11,6 +11,7 @@ from contactstudy.study.kind import Part, Report
 from contactstudy.study.kinds.passage.drawings import drawings
 from contactstudy.study.kinds.passage.report.abstract import GRADES, abstract
 from contactstudy.study.kinds.passage.report.conclusion import conclusion
+from contactstudy.study.kinds.passage.report.measured_table import measured_tables
 from contactstudy.study.kinds.passage.report.rungs import rung_tables
 from contactstudy.study.kinds.passage.report.stress_table import stress_tables
 from contactstudy.study.kinds.passage.report.tables import error_tables, passing_table, run_table
@@ -22,6 +23,7 @@ _PARTS = (
     ("Map", ("trust_map",)),
     ("Contact stiffness", ("contact_stiffness",)),
     ("The ladder", ("ladder",)),
+    ("Held against a measurement", ("measured",)),
     ("Irregularity", ("irregularity_spectrum", "irregularity_profile")),
     ("Contact force", ("contact_force", "third_octaves")),
     ("Motion of the wheel", ("wheel_displacement", "wheel_acceleration")),
@@ -101,6 +103,8 @@ def _parts(results: StudyResults) -> list[Part]:
             after = [k for k, d in enumerate(own) if d.name.startswith("stress_below")]
             at = after[-1] + 1 if after else len(blocks)
             blocks[at:at] = stress_tables(results)
+        if title == "Held against a measurement":
+            blocks += measured_tables(results)
         if title == "The ladder":
             blocks += rung_tables(results)
         profile = irregularity_of(results).profile if title == "Irregularity" else None

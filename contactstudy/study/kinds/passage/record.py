@@ -1,0 +1,192 @@
+"""The table ``[measured]``: a record that a passage is held against."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Literal
+
+import numpy as np
+
+from contactstudy.arrays import Array
+from contactstudy.compare.signals import at_station
+from contactstudy.exceptions import InputError
+from contactstudy.irregularity.table import read_numbers
+from contactstudy.solvers.dataset import POINT_SIGNALS, SIGNALS
+from contactstudy.solvers.journey import Journey
+from contactstudy.units import UnitError, to_si
+from contactstudy.validation import Above, File, Naming, Parameters, Unit, complaint, did_you_mean
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+STATION_SIGNALS = {"station_displacement": "m"}
+"""Signals at the journey's stations and their units."""
+_CHANNEL = re.compile(r"(?P<column>[^=]+?)\s*=\s*(?P<signal>\w+)(?:\s+at\s+(?P<at>.+))?")
+_FORM = 'must be like "COLUMN = SIGNAL" or "COLUMN = SIGNAL at 12.5 m"'
+_SECONDS = {"s": 1.0, "ms": 1e-3, "us": 1e-6}
+
+
+@dataclass(frozen=True)
+class Channel:
+    """A column of the record, and its signal: at a station X [m], or of the first wheel."""
+
+    column: str
+    signal: str
+    at: float | None
+
+    @property
+    def unit(self) -> str:
+        """SI unit of the signal."""
+        return STATION_SIGNALS.get(self.signal) or SIGNALS[self.signal][0]
+
+    @property
+    def label(self) -> str:
+        """Signal and place."""
+        where = "" if self.at is None else f" at {self.at:g} m"
+        return f"{self.signal.replace('_', ' ')}{where}"
+
+    def of(self, run: xr.Dataset) -> Array:
+        """The signal (n,) of a run."""
+        return at_station(run, self.signal, self.at)
+
+
+@dataclass(frozen=True)
+class Record:
+    """What a file holds: times (n,) [s], and of each channel (c, n) in SI units."""
+
+    time: Array
+    values: Array
+
+
+@dataclass(frozen=True)
+class MeasuredRecord(Parameters):
+    """A measured record, which is laid over the computed signals and compared by the same norms.
+
+    ``channels = ["mid = station_displacement at 12.5 m"]`` says which column is which signal.
+    """
+
+    file: Annotated[str, File(), "CSV file with the record; nothing is compared without"] = ""
+    channels: Annotated[
+        tuple[str, ...], 'what its columns are, "COLUMN = SIGNAL" or "COLUMN = SIGNAL at X"'
+    ] = ()  # fmt: skip
+    unit: Annotated[str, 'unit of the channels, "mm" or "um/m"; SI if left out'] = ""
+    time_column: Annotated[str, 'column with the time; "" for samples at a rate'] = "t"
+    time_unit: Annotated[Literal["s", "ms", "us"], "its unit"] = "s"
+    rate: Annotated[
+        float | None, Unit("Hz"), Above(0), "samples a second, of a record without times"
+    ] = None  # fmt: skip
+    shift: Annotated[
+        float | Literal["fitted"], Unit("s"),
+        "added to the record's time; fitted by the largest correlation",
+    ] = "fitted"  # fmt: skip
+    scale: Annotated[
+        float | Literal["fitted"], "of the computed signals; fitted by least squares"
+    ] = 1.0  # fmt: skip
+
+    @property
+    def used(self) -> bool:
+        """Whether there is a record."""
+        return bool(self.file)
+
+    def problems(self, key: Naming) -> list[str]:
+        """Channels that name no signal, of a wrong unit, or none; times that are not known."""
+        problems = list[str]()
+        if self.used and not self.channels:
+            problems.append(f"{key('channels')}: is missing; say which column is which signal")
+        if self.used and not self.time_column and self.rate is None:
+            problems.append(f"{key('time_column')}: is missing; or give {key('rate')}")
+        if self.rate is not None and self.time_column:
+            allowed = f'applies only with {key("time_column")} = ""'
+            problems.append(complaint(key("rate"), self.rate, allowed))
+        if self.scale != "fitted" and self.scale == 0.0:
+            problems.append(complaint(key("scale"), self.scale, 'must not be 0, or "fitted"'))
+        return problems + [
+            complaint(f"{key('channels')}.{k}", self.channels[k], why)
+            for k, why in self._wrong_channels().items()
+        ]
+
+    def _wrong_channels(self) -> dict[int, str]:
+        """Number of a channel -> what is wrong with it."""
+        found = {}
+        for k, text in enumerate(self.channels):
+            try:
+                factor(self.unit, _channel(text).unit)
+            except UnitError as error:
+                found[k] = str(error)
+        return found
+
+    @property
+    def parsed(self) -> tuple[Channel, ...]:
+        """The channels."""
+        return tuple(_channel(text) for text in self.channels)
+
+    def problems_on(self, journey: Journey) -> list[str]:
+        """Stations that a run does not have; a file that cannot be used; no common time."""
+        if self._wrong_channels():
+            return []  # complained about
+        problems = [
+            complaint(
+                f"measured.channels.{k}", text, f"needs {channel.at:g} m among journey.stations"
+            )
+            for k, (text, channel) in enumerate(zip(self.channels, self.parsed, strict=True))
+            if channel.at is not None
+            and not any(abs(channel.at - x) < 1e-6 for x in journey.stations)
+        ]
+        try:
+            record = self.read()
+        except InputError as error:
+            return problems + [f"measured.file: {problem}" for problem in error.problems]
+        if self.shift != "fitted":
+            first, last = record.time[0] + self.shift, record.time[-1] + self.shift
+            duration = journey.n_steps * journey.time_step
+            if first >= duration or last <= 0.0:
+                problems.append(
+                    f"measured.shift = {self.shift:g} s: the record then goes from {first:.4g} to "
+                    f"{last:.4g} s and has no common time with the run, 0 to {duration:.4g} s"
+                )
+        return problems
+
+    def read(self) -> Record:
+        """The record in SI units.
+
+        Raises
+        ------
+        InputError
+            Listing everything that is wrong with the file.
+        """
+        columns = [channel.column for channel in self.parsed]
+        named = [self.time_column] if self.time_column else []
+        table, lines, problems = read_numbers(Path(self.file), [*named, *columns])
+        if len(table) < 3:
+            problems.append(f"{self.file}: {len(table)} rows of numbers; allowed: 3 or more")
+        time = np.arange(len(table)) / self.rate if self.rate else table[:, 0]
+        time = time * _SECONDS[self.time_unit]
+        if not problems and np.any(falls := np.diff(time) <= 0.0):
+            line = lines[1:][falls][0]
+            problems.append(f"{self.file}, line {line}: the time does not increase")
+        if problems:
+            raise InputError(problems)
+        factors = [factor(self.unit, channel.unit) for channel in self.parsed]
+        return Record(time, table[:, len(named) :].T * np.array(factors)[:, None])
+
+
+def factor(unit: str, si: str) -> float:
+    """From a unit to the SI unit; `UnitError` if they do not fit."""
+    return to_si(f"1 {unit}", si if si != "1" else "") if unit else 1.0
+
+
+def _channel(text: str) -> Channel:
+    match = _CHANNEL.fullmatch(text.strip())
+    if match is None:
+        raise UnitError(_FORM)
+    signal, at = match["signal"], match["at"]
+    known = {**dict.fromkeys(POINT_SIGNALS), **STATION_SIGNALS}
+    if signal not in known:
+        hint = did_you_mean(signal, known)
+        raise UnitError(f"there is no signal {signal}{hint}; allowed: {', '.join(known)}")
+    if (signal in STATION_SIGNALS) != (at is not None):
+        needs = "needs a place" if signal in STATION_SIGNALS else "has no place"
+        raise UnitError(f"{signal} {needs}; {_FORM}")
+    return Channel(match["column"].strip(), signal, None if at is None else to_si(at, "m"))

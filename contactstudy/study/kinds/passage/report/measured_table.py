@@ -1,0 +1,40 @@
+"""Tables of runs held against a measured record."""
+
+from contactstudy.figures.measured import GROUP, fitted
+from contactstudy.plot.text import label, number
+from contactstudy.report.blocks import Block, table, text
+from contactstudy.study.results import StudyResults
+
+_COLUMNS = [
+    "Run", "Channel", "Correlation", "Peak ratio", "Error (%)", "Magnitude", "Phase", "Timing (ms)",
+]  # fmt: skip
+EXPLAINED = (
+    "Peak ratio: largest computed over largest measured value, of the measured peak's sign. Error: "
+    "relative L2 difference. Magnitude and phase: Sprague and Geers. Timing: by how much later the "
+    "computed channel comes once the record is shifted."
+)
+
+
+def measured_tables(results: StudyResults) -> list[Block]:
+    """How each channel of each run agrees, and which runs could not be laid over the record."""
+    rows = [
+        [
+            label(run),
+            channel,
+            number(one["correlation"], 4),
+            number(one["peak_ratio"], 3),
+            number(100 * one["normalised_error"], 3),
+            number(one["sprague_geers"]["M"], 2),
+            number(one["sprague_geers"]["P"], 2),
+            number(1e3 * one["timing"], 2),
+        ]
+        for run, found in fitted(results).items()
+        for channel, one in found["channels"].items()
+    ]
+    blocks = [table(_COLUMNS, rows, "Computed against measured.", 2, EXPLAINED)] if rows else []
+    failed = {
+        run: one["failure"]
+        for run, one in results.metrics.get(GROUP, {}).get("runs", {}).items()
+        if "failure" in one
+    }
+    return blocks + [text(f"{label(run)}: {why}.") for run, why in failed.items()]
