@@ -77,7 +77,7 @@ def test_the_shipped_studies_find_what_the_literature_says(tmp_path):
     force = results.groups["sweep"]["largest"].sel(signal="contact_force").squeeze()
     peak = {name: force.sel(run=name).values for name in force["run"].values.tolist()}
     print(force.to_pandas() / 1e3)
-    assert np.all(np.abs(peak["trajectory"] / peak["surface"] - 1) < 0.2)
-    assert np.all(peak["raw_profile"] > 1.3 * peak["surface"])
-    assert np.all(peak["paper"] > 3 * peak["surface"])
+    assert np.all(np.abs(peak["trajectory"] / peak["modal_surface"] - 1) < 0.2)
+    assert np.all(peak["raw_profile"] > 1.3 * peak["modal_surface"])
+    assert np.all(peak["point"] > 3 * peak["modal_surface"])
     assert (tmp_path / "dipped_joint" / "sweep.csv").read_text().count("largest.P1") == 1

@@ -64,6 +64,23 @@ def test_the_shipped_comparison_is_the_issues():
     assert study.companions == ("smooth_rail",)
 
 
+def test_one_name_means_one_model_in_all_shipped_studies():
+    found = {}
+    for name in shipped_studies():
+        measured = ["irregularity.file=level.csv"] if name == "measured_level" else []
+        study = load_study(name, measured)
+        study = getattr(study, "study", study)  # of one with axes
+        for run in getattr(study, "runs", {}):
+            table = {k: v for k, v in study.resolved_run(run).items() if k != "time_step"}
+            if "wheel" in table and table.get("solver") != "surface" and table["wheel"] != "modal":
+                del table["wheel"]  # of a press, which all point runs share
+            found.setdefault(run, {})[name] = table
+    for run, tables in found.items():
+        models = {str(sorted(table.items())) for table in tables.values()}
+        assert len(models) == 1, (run, tables)
+    assert len(found["point"]) > 3
+
+
 def test_every_shipped_study_loads():
     for name in shipped_studies():
         overrides = ["irregularity.file=level.csv"] if name == "measured_level" else []

@@ -287,7 +287,7 @@ def test_a_key_is_not_set_and_swept_at_once(law):
 
 def test_a_history_to_keep_is_looked_for_before_anything_runs():
     """Names of point runs, of surface contact, and of smooth twins; those of no run are refused."""
-    values = {"runs.paper.k_r": "1e9 N/m"}
+    values = {"runs.point.k_r": "1e9 N/m"}
     series = {"irregularity.seed": [1, 2]}
 
     def refused(name, study):
