@@ -25,9 +25,9 @@ from contactstudy.irregularity.profile import (
 )
 from contactstudy.irregularity.psd import Convention
 from contactstudy.irregularity.rail_defects import Corrugation, DippedJoint, Step, Weld
+from contactstudy.irregularity.rails import RailProfiles
 from contactstudy.irregularity.sample import sample_profile
 from contactstudy.irregularity.spectra import fra, german, paper_spectrum, spectrum, tbt3352
-from contactstudy.irregularity.two_rails import RailPair
 from contactstudy.irregularity.wheel_defects import OutOfRound
 
 __all__ = [
@@ -42,7 +42,7 @@ __all__ = [
     "MeasuredProfile",
     "OutOfRound",
     "Profile",
-    "RailPair",
+    "RailProfiles",
     "RepeatWarning",
     "RollingDefect",
     "RoundedFlat",

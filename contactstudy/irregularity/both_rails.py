@@ -6,19 +6,19 @@ from dataclasses import replace
 from typing import Literal
 
 from contactstudy.irregularity.chosen import Irregularity
-from contactstudy.irregularity.defective import with_defects
-from contactstudy.irregularity.profile import HarmonicProfile, Profile, SmoothRail
-from contactstudy.irregularity.two_rails import (
-    RailPair,
+from contactstudy.irregularity.coherence import (
     constant_coherence,
     decaying_coherence,
     other_rail,
 )
+from contactstudy.irregularity.defective import with_defects
+from contactstudy.irregularity.profile import HarmonicProfile, Profile, SmoothRail
+from contactstudy.irregularity.rails import RailProfiles
 
 
 def both_rails(
     table: Irregularity, required: tuple[float, float] | None = None, radius: float = 0.43
-) -> RailPair:
+) -> RailProfiles:
     """The irregularity of both rails, vertical and transverse.
 
     The right rail has the profiles of a track with one rail, the left one others of the table's
@@ -46,7 +46,7 @@ def both_rails(
     if any(defects):
         right, other = (with_defects(profile, *defects, radius) for profile in vertical)
         vertical = right, other
-    return RailPair(vertical, transverse)
+    return RailProfiles(*vertical, *transverse)
 
 
 def _generated(table: Irregularity, direction: Literal["Z", "Y"]) -> tuple[Profile, Profile]:

@@ -47,7 +47,7 @@ def test_every_rail_has_the_variance_of_the_spectrum(direction):
     for coherence in (0.0, 0.5, "decaying"):
         pairs = [both_rails(table(seed=s, coherence=coherence, band=band)) for s in range(60)]
         for rail in (0, 1):
-            found = [np.sum(p.profile(rail, direction).amplitudes ** 2) / 2 for p in pairs]
+            found = [np.sum(p.of(rail, direction).amplitudes ** 2) / 2 for p in pairs]
             error = np.std(found) / np.sqrt(len(found))
             assert np.mean(found) == pytest.approx(expected, abs=4 * error + 2e-3 * expected)
 
@@ -56,7 +56,7 @@ def test_every_rail_has_the_variance_of_the_spectrum(direction):
 def test_rails_have_the_coherence_that_is_stated(coherence):
     pairs = [both_rails(table(seed=s, coherence=coherence)) for s in range(40)]
     for direction in "ZY":
-        right, left = ([p.profile(rail, direction) for p in pairs] for rail in (0, 1))
+        right, left = ([p.of(rail, direction) for p in pairs] for rail in (0, 1))
         # weights of the terms are very uneven at low wavenumbers, so narrow bands
         for band in ((1.0, 1.5), (5.0, 7.0), (12.0, 20.0)):
             found = measured_coherence(right, left, band)
@@ -66,7 +66,7 @@ def test_rails_have_the_coherence_that_is_stated(coherence):
 def test_coherence_decays_with_the_wavelength():
     values = {"coherence": "decaying", "coherence_wavelength": 4.0}
     pairs = [both_rails(table(seed=s, **values)) for s in range(60)]
-    right, left = ([p.profile(rail, "Z") for p in pairs] for rail in (0, 1))
+    right, left = ([p.of(rail, "Z") for p in pairs] for rail in (0, 1))
     for wavelength in (40.0, 8.0, 4.0, 1.5, 0.5):
         w = 2 * np.pi / wavelength
         found = measured_coherence(right, left, (0.93 * w, 1.07 * w))
@@ -93,8 +93,8 @@ def test_vertical_and_transverse_are_independent():
     for rail in (0, 1):
         for other in (0, 1):
             found = measured_coherence(
-                [p.profile(rail, "Z") for p in pairs],
-                [p.profile(other, "Y") for p in pairs],
+                [p.of(rail, "Z") for p in pairs],
+                [p.of(other, "Y") for p in pairs],
                 (5.0, 9.0),
             )
             assert found < 0.03
@@ -152,7 +152,7 @@ def test_every_named_spectrum_has_a_lateral_formula():
 def test_sinusoids_and_defects_are_on_both_rails():
     pair = both_rails(Irregularity(spectrum="sinusoid", amplitude=1e-4, wavelength=2.0))
     np.testing.assert_array_equal(pair.level(0, "Z", X), pair.level(1, "Z", X))
-    assert isinstance(pair.profile(1, "Y"), SmoothRail)
+    assert isinstance(pair.of(1, "Y"), SmoothRail)
     from contactstudy.irregularity import DippedJoint
 
     joint = DippedJoint(at=20.0)

@@ -1,4 +1,4 @@
-"""The irregularity of both rails, vertical and transverse, and what follows of gauge and level.
+"""What the irregularity of one rail says of the other's.
 
 The two rails of a direction have the same spectral density S. How much one says of the other is
 their coherence, gamma^2(omega) = |S_RL|^2 / (S_R S_L): 1 for rails that are alike, 0 for rails that
@@ -8,57 +8,16 @@ have nothing to do with each other.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from contactstudy.arrays import Array
-from contactstudy.irregularity.profile import HarmonicProfile, Profile
+from contactstudy.irregularity.profile import HarmonicProfile
 from contactstudy.irregularity.sample import DIRECTIONS
 
-RIGHT, LEFT = 0, 1
-"""The rails, seen along +X; left is +Y."""
 Coherence = Callable[[Array], Array]
 """Wavenumbers [rad/m] to gamma^2."""
-
-
-@dataclass(frozen=True)
-class RailPair:
-    """Irregularity of both rails: each a profile a direction, by rail (`RIGHT`, `LEFT`).
-
-    Vertical positive up, transverse positive to the left.
-    """
-
-    vertical: tuple[Profile, Profile]
-    transverse: tuple[Profile, Profile]
-
-    def profile(self, rail: int, direction: Literal["Z", "Y"]) -> Profile:
-        """The profile of a rail in a direction."""
-        return (self.vertical if direction == "Z" else self.transverse)[rail]
-
-    def level(
-        self, rail: int, direction: Literal["Z", "Y"], x: ArrayLike, derivative: int = 0
-    ) -> Array:
-        """Irregularity of a rail in a direction at X, or a derivative of it [m, 1, 1/m]."""
-        return self.profile(rail, direction)(x, derivative)
-
-    def gauge(self, x: ArrayLike) -> Array:
-        """By how much the rails are further apart than they should be [m]."""
-        return self.transverse[LEFT](x) - self.transverse[RIGHT](x)
-
-    def alignment(self, x: ArrayLike) -> Array:
-        """Transverse irregularity of the middle of the track [m]."""
-        return 0.5 * (self.transverse[LEFT](x) + self.transverse[RIGHT](x))
-
-    def cross_level(self, x: ArrayLike) -> Array:
-        """By how much the left rail is higher than the right one [m]."""
-        return self.vertical[LEFT](x) - self.vertical[RIGHT](x)
-
-    def longitudinal_level(self, x: ArrayLike) -> Array:
-        """Vertical irregularity of the middle of the track [m]."""
-        return 0.5 * (self.vertical[LEFT](x) + self.vertical[RIGHT](x))
 
 
 def constant_coherence(value: float) -> Coherence:
