@@ -14,6 +14,7 @@ from collections.abc import Sequence
 
 from contactstudy.exceptions import ContactStudyError, InputError
 from contactstudy.process import ONE_THREAD
+from contactstudy.texts import visible
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -61,7 +62,7 @@ def _call(tokens: Sequence[str]) -> None:
 
 
 def _complain(text: str) -> None:
-    lines = text.splitlines() or [""]
+    lines = visible(text).split("\n")
     print(
         f"contactstudy: {lines[0]}", *(f"  {line}" for line in lines[1:]), sep="\n", file=sys.stderr
     )

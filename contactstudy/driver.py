@@ -19,6 +19,7 @@ from contactstudy.store import Store
 from contactstudy.study.axes.collect import collect_swept
 from contactstudy.study.axes.dataset import write_csv
 from contactstudy.study.compute import Found, compute
+from contactstudy.study.earlier import FINISHED, refuse_other, remove_stale
 from contactstudy.study.kind import find_kind
 from contactstudy.study.loading import load_companions
 from contactstudy.study.plan import Plan, collect, plan_study
@@ -31,7 +32,6 @@ from contactstudy.study.results import (
 from contactstudy.study.status import write_plan
 from contactstudy.study.study import Study
 
-FINISHED = "finished"
 _WAITING = "{}: {} is at work here; this one goes on when it has ended"
 
 
@@ -42,6 +42,7 @@ def run_study(
     reporter: Reporter | None = None,
     quick: bool = False,
     scheduler: str = "",
+    overwrite: bool = False,
 ) -> StudyResults:
     """Run a study and write results, figures and report into `out_dir`.
 
@@ -50,12 +51,14 @@ def run_study(
 
     `workers` pieces of work are computed at once, each in another process, or as many as the
     Dask scheduler at the address `scheduler` has workers for. With `quick` companions have the
-    values of their tables ``[quick]``.
+    values of their tables ``[quick]``. Results of another study, or of this one with other
+    values, are replaced only with `overwrite`.
 
     Raises
     ------
     InputError
-        For input files that cannot be used or a folder that cannot be written; before any run.
+        For input files that cannot be used, and a folder that cannot be written or holds other
+        results; before any run.
     NumericalError
         When a run broke down; the others are finished and kept.
     """
@@ -66,6 +69,7 @@ def run_study(
         _executor(workers, scheduler, reporter) as executor,
     ):
         plan = _planned(study, out_dir, reporter, quick)
+        refuse_other(plan, overwrite)
         if (done := _finished_results(plan)) is not None:
             reporter.note(f"{out_dir}: all results are there and up to date")
             return done
@@ -76,10 +80,10 @@ def run_study(
         written += render(results, out_dir, reporter)
         for folder in {path.parent for path in written}:
             remove_unfinished(folder)
-        if results.failures:
-            return results  # they are tried again the next time
         sums = {p.relative_to(out_dir).as_posix(): file_digest(p) for p in written}
-        Store(out_dir / RUNS).save(FINISHED, plan.key(), sums)
+        remove_stale(plan, sums)
+        if not results.failures:  # they are tried again the next time
+            Store(out_dir / RUNS).save(FINISHED, plan.key(), sums)
         return results
 
 

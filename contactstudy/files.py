@@ -20,6 +20,10 @@ from contactstudy.exceptions import InputError, StorageError, reason
 #: Marks a temporary file as ours.
 _UNFINISHED = ".unfinished-"
 _ABANDONED = 3600.0  # s
+LONGEST_NAME = 100
+"""Characters of a name that files are called by; with what is added, most disks take 255 bytes."""
+# https://learn.microsoft.com/windows/win32/fileio/naming-a-file
+_DEVICES = {"con", "prn", "aux", "nul", *(f"{d}{n}" for d in ("com", "lpt") for n in range(1, 10))}
 _NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
 
 
@@ -143,6 +147,11 @@ def _is_there(path: Path, stream: io.FileIO) -> bool:
         return os.path.samestat(path.stat(), os.fstat(stream.fileno()))
     except FileNotFoundError:
         return False
+
+
+def is_reserved(name: str) -> bool:
+    """Whether Windows means a device by a file's name."""
+    return name.partition(".")[0].strip().lower() in _DEVICES
 
 
 def ensure_writable(directory: Path) -> None:

@@ -6,8 +6,6 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rich.console import Console
-
 from contactstudy.driver import compute_study, run_study
 from contactstudy.exceptions import InputError
 from contactstudy.reporter import Quiet
@@ -16,7 +14,7 @@ from contactstudy.study.axes.swept import Swept
 from contactstudy.study.loading import load_study
 from contactstudy.study.results import StudyResults
 from contactstudy.study.study import Study
-from contactstudy.study.terminal import TerminalReporter, print_check
+from contactstudy.study.terminal import TerminalReporter, console, print_check
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -57,7 +55,7 @@ def check(study: str | Path | Study, values: Mapping[str, Any] | None = None) ->
     InputError
         Listing every problem.
     """
-    print_check(_study(study, values), Console(), Quiet())
+    print_check(_study(study, values), console(), Quiet())
 
 
 def run(
@@ -68,6 +66,7 @@ def run(
     workers: int = 2,
     scheduler: str = "",
     quick: bool = False,
+    overwrite: bool = False,
 ) -> StudyResults:
     """Run a study.
 
@@ -87,6 +86,8 @@ def run(
         Address of a Dask scheduler, ``"tcp://host:8786"``, whose workers run them instead.
     quick : bool
         With the values of the table ``[quick]``, of a file and of companions.
+    overwrite : bool
+        Results of another study in `out`, or of this one with other values, are replaced.
 
     Returns
     -------
@@ -100,7 +101,7 @@ def run(
     NumericalError
         When a run broke down; the others are finished and kept.
     """
-    return _run(_study(study, values, quick), out, workers, scheduler, quick)
+    return _run(_study(study, values, quick), out, workers, scheduler, quick, overwrite)
 
 
 def sweep(
@@ -111,6 +112,7 @@ def sweep(
     out: str | Path | None = None,
     workers: int = 2,
     scheduler: str = "",
+    overwrite: bool = False,
 ) -> xr.Dataset:
     """Vary keys of a study.
 
@@ -121,7 +123,7 @@ def sweep(
         Dotted key -> its values, as in the table ``[sweep]``:
         ``{"irregularity.seed": "1 to 50", "journey.speed": ["200 km/h", "300 km/h"]}``; also
         ``combine``, ``samples``, ``seed`` and ``keep``. They replace those of the file.
-    values, out, workers, scheduler
+    values, out, workers, scheduler, overwrite
         As of `run`.
 
     Returns
@@ -138,7 +140,7 @@ def sweep(
     made = load_study(study, _mapping("values", values), sweep=_mapping("series", series))
     if not isinstance(made, Swept):
         raise InputError(f"series = {series!r}: must name at least one key that is varied")
-    return next(iter(_run(made, out, workers, scheduler, False).designs.values()))
+    return next(iter(_run(made, out, workers, scheduler, False, overwrite).designs.values()))
 
 
 def _mapping(name: str, given: Mapping[str, Any] | None) -> Mapping[str, Any]:
@@ -149,14 +151,19 @@ def _mapping(name: str, given: Mapping[str, Any] | None) -> Mapping[str, Any]:
 
 
 def _run(
-    study: Study, out: str | Path | None, workers: int, scheduler: str, quick: bool
+    study: Study,
+    out: str | Path | None,
+    workers: int,
+    scheduler: str,
+    quick: bool,
+    overwrite: bool,
 ) -> StudyResults:
     if not isinstance(out, str | Path | None):
         raise InputError(f"out = {out!r}: must be a folder")
-    with TerminalReporter(Console(stderr=True)) as reporter:
+    with TerminalReporter(console(stderr=True)) as reporter:
         if out is None:
             return compute_study(study, cache_directory(), workers, reporter, quick, scheduler)
-        return run_study(study, out, workers, reporter, quick, scheduler)
+        return run_study(study, out, workers, reporter, quick, scheduler, overwrite)
 
 
 def _study(

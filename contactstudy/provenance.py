@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
+from contactstudy.code import code_digest
 from contactstudy.version import __version__
 
 #: Packages whose code decides the numbers; `WRITING` ones only keep, draw or print them.
@@ -47,6 +48,7 @@ def provenance(
         "seed": seed,
         "hash": inputs_hash,
         "versions": dict(versions()),
+        "code": code_digest()[:16],
         "mesh": mesh,
         "files": files,
         "sources": [f"{name}, SHA-256 {content}" for name, content in files.items()],

@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 from contactstudy.code import code_digest
 from contactstudy.files import file_digest, remove_unfinished, write_file, writing
 from contactstudy.provenance import COMPUTING, versions
+from contactstudy.texts import json_text
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -168,7 +169,7 @@ def _tidy(folder: Path) -> None:
 
 def digest(value: Any, length: int = 16) -> str:
     """Hexadecimal SHA-256 of plain data, cut to `length` characters."""
-    text = json.dumps(value, sort_keys=True, ensure_ascii=False)
+    text = json_text(value, sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()[:length]
 
 
@@ -188,7 +189,7 @@ def netcdf_attributes(run: xr.Dataset, drop: tuple[str, ...] = MACHINE_ATTRIBUTE
 
 
 def _plain(value: Any) -> str:
-    return json.dumps(value, ensure_ascii=False) + "\n"
+    return json_text(value) + "\n"
 
 
 def _write_arrays(arrays: Mapping[str, Any], stream: BinaryIO) -> None:
@@ -214,7 +215,7 @@ def _write_dataset(data: xr.Dataset, stream: BinaryIO) -> None:
         place = "coords" if name in clean.coords else "data_vars"
         header.setdefault(place, []).append([name, variable.dims, variable.attrs, number])
     header["attrs"] = clean.attrs
-    text = json.dumps(header, ensure_ascii=False, default=lambda value: value.tolist())
+    text = json_text(header, default=lambda value: value.tolist())
     np.savez(stream, allow_pickle=False, header=np.array(text), **arrays)
 
 

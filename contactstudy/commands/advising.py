@@ -6,9 +6,8 @@ from pathlib import Path
 from typing import Annotated
 
 from cyclopts import Parameter
-from rich.console import Console
 
-from contactstudy.commands.options import Out, Overrides, Workers, errors
+from contactstudy.commands.options import Out, Overrides, Workers
 
 
 def advise(
@@ -33,9 +32,9 @@ def advise(
     from contactstudy.advice.advise import read_bound
     from contactstudy.advice.terminal import print_advice
     from contactstudy.study.loading import load_study
-    from contactstudy.study.terminal import TerminalReporter
+    from contactstudy.study.terminal import TerminalReporter, console
 
     loaded = load_study(study, overrides)
-    with TerminalReporter(errors()) as reporter:
+    with TerminalReporter(console(stderr=True)) as reporter:
         found = find(loaded, read_bound(bound), out, measure, workers, reporter)
-    print_advice(found, Console())
+    print_advice(found, console())

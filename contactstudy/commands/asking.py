@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from rich.console import Console
-
-from contactstudy.commands.options import Overrides, Quick, Sweep, errors
+from contactstudy.commands.options import Overrides, Quick, Sweep
 
 
 def check(
@@ -20,11 +18,11 @@ def check(
         A TOML file, or the name of a shipped study.
     """
     from contactstudy.study.loading import load_study
-    from contactstudy.study.terminal import TerminalReporter, print_check
+    from contactstudy.study.terminal import TerminalReporter, console, print_check
 
     loaded = load_study(study, overrides, sweep=sweep, quick=quick)
-    with TerminalReporter(errors()) as reporter:
-        print_check(loaded, Console(), reporter, quick)
+    with TerminalReporter(console(stderr=True)) as reporter:
+        print_check(loaded, console(), reporter, quick)
 
 
 def status(folder: Path) -> None:

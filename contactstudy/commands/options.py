@@ -4,7 +4,6 @@ from pathlib import Path
 from typing import Annotated
 
 from cyclopts import Parameter
-from rich.console import Console
 
 Overrides = Annotated[
     tuple[str, ...],
@@ -39,9 +38,7 @@ Scheduler = Annotated[
         help="Address of a Dask scheduler whose workers compute instead, e.g. tcp://host:8786.",
     ),
 ]
+Overwrite = Annotated[
+    bool, Parameter(negative="", help="Replace the results of another study in the folder.")
+]
 Out = Annotated[Path, Parameter(name=["--out", "-o"])]
-
-
-def errors() -> Console:
-    """Where progress and errors are shown."""
-    return Console(stderr=True)

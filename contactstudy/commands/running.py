@@ -7,9 +7,16 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
-from rich.console import Console
 
-from contactstudy.commands.options import Out, Overrides, Quick, Scheduler, Sweep, Workers, errors
+from contactstudy.commands.options import (
+    Out,
+    Overrides,
+    Overwrite,
+    Quick,
+    Scheduler,
+    Sweep,
+    Workers,
+)
 from contactstudy.exceptions import ContactStudyError, InputError
 
 if TYPE_CHECKING:
@@ -25,6 +32,7 @@ def run(
     quick: Quick = False,
     workers: Workers = 2,
     scheduler: Scheduler = "",
+    overwrite: Overwrite = False,
 ) -> None:
     """Run a study; write result.nc, metrics.json, figures/ and report.pdf.
 
@@ -37,7 +45,8 @@ def run(
     """
     from contactstudy.study.loading import load_study
 
-    _run(load_study(study, overrides, sweep=sweep, quick=quick), out, workers, scheduler, quick)
+    loaded = load_study(study, overrides, sweep=sweep, quick=quick)
+    _run(loaded, out, workers, scheduler, quick, overwrite)
 
 
 def reproduce(
@@ -50,6 +59,7 @@ def reproduce(
     quick: Quick = False,
     workers: Workers = 2,
     scheduler: Scheduler = "",
+    overwrite: Overwrite = False,
 ) -> None:
     """Run the studies that make the paper's figures, by default the main comparison.
 
@@ -70,17 +80,19 @@ def reproduce(
     folders = [out if study.name == main_study else out / study.name for study in loaded]
     _each_its_own(loaded, folders)
     for study, folder in zip(loaded, folders, strict=True):
-        _run(study, folder, workers, scheduler, quick)
+        _run(study, folder, workers, scheduler, quick, overwrite)
 
 
-def _run(study: Study, out: Path, workers: int, scheduler: str, quick: bool) -> None:
+def _run(
+    study: Study, out: Path, workers: int, scheduler: str, quick: bool, overwrite: bool
+) -> None:
     from contactstudy.driver import run_study
     from contactstudy.plot.text import counted
-    from contactstudy.study.terminal import TerminalReporter, print_results
+    from contactstudy.study.terminal import TerminalReporter, console, print_results
 
-    with TerminalReporter(errors()) as reporter:
-        results = run_study(study, out, workers, reporter, quick, scheduler)
-    print_results(results, out, Console())
+    with TerminalReporter(console(stderr=True)) as reporter:
+        results = run_study(study, out, workers, reporter, quick, scheduler, overwrite)
+    print_results(results, out, console())
     if failures := results.failures:
         told = [f"{title}: {reason}" for title, reason in failures.items()]
         raise ContactStudyError("\n".join([f"{counted(len(told), 'variant')} failed", *told]))

@@ -7,7 +7,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from contactstudy.commands.options import Out, errors
+from contactstudy.commands.options import Out
 from contactstudy.exceptions import ContactStudyError
 
 
@@ -41,11 +41,11 @@ def verify(
             print(f"{case.name:<{width}}  {case.about}".rstrip())
         return
     from contactstudy.report.verification import write_verification
-    from contactstudy.study.terminal import TerminalReporter
+    from contactstudy.study.terminal import TerminalReporter, console
     from contactstudy.verification.outcome import write_json
     from contactstudy.verification.runner import about, complaints, run_cases
 
-    with TerminalReporter(errors()) as reporter:
+    with TerminalReporter(console(stderr=True)) as reporter:
         outcomes = run_cases(cases, out, quick, reporter, workers)
         with reporter.stage("typesetting"):
             write_json(outcomes, about(), out)

@@ -7,6 +7,7 @@ from contactstudy.plot.drawing import Drawing
 from contactstudy.plot.style import figure_style, save
 from contactstudy.study.kind import find_kind
 from contactstudy.study.results import FIGURES, StudyResults
+from contactstudy.texts import json_text
 
 
 def all_drawings(results: StudyResults) -> list[Drawing]:
@@ -22,7 +23,7 @@ def write_figures(results: StudyResults, out_dir: Path) -> list[Path]:
     """
     folder = Path(out_dir) / FIGURES
     written: list[Path] = []
-    with figure_style():
+    with figure_style(json_text(results.config)):
         for made in all_drawings(results):
             written += save(made.draw(), folder, made.name)
     for companion in results.companions:

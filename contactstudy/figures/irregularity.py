@@ -103,7 +103,7 @@ def _spectra(info: IrregularityInfo) -> Figure:
     if info.spectrum is not None:
         _line(axes, info.spectrum, VERMILION if info.estimate is None else BLACK, "--", 1.4)
     axes.set(xscale="log", yscale="log", xlabel="Angular wavenumber ω (rad/m)")
-    axes.set_ylabel("PSD $G_{rr}$, two-sided (m²/(rad/m))")
+    axes.set_ylabel("PSD $G_{rr}$, two-sided (m²/(rad/m))", parse_math=True)
     _limits(axes, info)
     second = axes.secondary_xaxis("top", functions=(_reciprocal, _reciprocal))
     second.set_xlabel("Wavelength (m)")
@@ -170,6 +170,7 @@ def _profile(profile: Level, travelled: tuple[float, float] | None) -> Figure:
         axes.axvspan(*travelled, color=SHADE, lw=0, zorder=0)
     axes.plot(profile.position, profile.level * 1e3, color=BLUE, lw=0.8)
     axes.axhline(0.0, color=BLACK, lw=0.4)
-    axes.set(xlabel="Position X along the rail (m)", ylabel="Irregularity $r_v$ (mm)")
+    axes.set_xlabel("Position X along the rail (m)")
+    axes.set_ylabel("Irregularity $r_v$ (mm)", parse_math=True)
     axes.margins(x=0)
     return figure

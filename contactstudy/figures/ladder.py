@@ -88,7 +88,8 @@ def _draw(results: StudyResults, rungs: list[Rung]) -> Figure:
                 x, rows, linestyle="none", marker=marker, color=color, markersize=5,
                 markerfacecolor="white", label=f"{words}, from the top",
             )  # fmt: skip
-    axes.set(xscale="log", xlabel="Relative $L_2$ difference of the contact force (%)")
+    axes.set_xscale("log")
+    axes.set_xlabel("Relative $L_2$ difference of the contact force (%)", parse_math=True)
     axes.set_xlim(left=low)
     axes.set_yticks(y, [label(r.name) for r in rungs])
     axes.set_ylim(len(rungs) - 0.4, -0.6)

@@ -1,5 +1,6 @@
 """The one style of all figures: size, fonts, colours, line styles, and how a figure is saved."""
 
+import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -13,6 +14,7 @@ from matplotlib.backends.backend_pdf import FigureCanvasPdf
 from matplotlib.figure import Figure
 
 from contactstudy.files import writing
+from contactstudy.plot.fonts import families
 
 # Width of the text block of the A4 report: figures are placed unscaled, so their fonts are
 # the size given here.
@@ -66,6 +68,7 @@ _RC: Any = {
     "figure.dpi": 100,
     "pdf.fonttype": 42,
     "axes.unicode_minus": True,
+    "text.parse_math": False,  # what users write is no markup; our own formulas ask for it
     "path.simplify": True,
     "path.simplify_threshold": 0.2,
 }
@@ -111,11 +114,16 @@ def run_styles(names: list[str], reference: str | None) -> dict[str, LineStyle]:
 
 
 @contextmanager
-def figure_style() -> Iterator[None]:
-    """Context in which figures are made and saved: the style, and no user's matplotlibrc."""
-    with matplotlib.rc_context():
+def figure_style(text: str = "") -> Iterator[None]:
+    """Context in which figures are made and saved: the style, and no user's matplotlibrc.
+
+    `text` is all that figures may draw of what users wrote.
+    """
+    with matplotlib.rc_context(), warnings.catch_warnings():
+        warnings.filterwarnings("ignore", "Glyph .* missing")  # `fonts.remark` has said so
         matplotlib.rcdefaults()
         matplotlib.rcParams.update(_RC)
+        matplotlib.rcParams["font.family"] = [_RC["font.family"], *families(text)]
         yield
 
 

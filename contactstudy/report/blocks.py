@@ -46,7 +46,6 @@ def bullets(items: list[str]) -> Block:
 
 
 def paragraphs(description: str) -> list[Block]:
-    """Return the paragraphs of a study's description: lines joined, names in quotation marks."""
-    named = re.sub(r"`([^`\n]+)`", r"“\1”", description)
-    joined = [" ".join(p.split()) for p in re.split(r"\n\s*\n", named)]
+    """Return the paragraphs of a study's description, their lines joined."""
+    joined = [" ".join(p.split()) for p in re.split(r"\n\s*\n", description)]
     return [text(paragraph) for paragraph in joined if paragraph]

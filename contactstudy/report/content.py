@@ -23,7 +23,7 @@ def content(results: StudyResults, timings: bool) -> Content:
     tables = parameter_tables(results)
     data: Content = {
         "title": results.title,
-        "subtitle": f"Study {label(results.name)} · contactstudy {__version__}",
+        "subtitle": f"Study {results.name} · contactstudy {__version__}",
         "name": results.name,
         "abstract": _abstract(results, report, chapters),
         "conclusion": [] if results.swept else list(report.conclusion),

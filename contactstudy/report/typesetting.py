@@ -6,6 +6,7 @@ from typing import Any
 
 import typst
 
+from contactstudy.plot.fonts import font_folder, foreign, lacking
 from contactstudy.resources import resource
 
 _SHARED = ("blocks.typ", "style.typ")
@@ -18,8 +19,16 @@ def typeset(template: tuple[str, ...], data: dict[str, Any], out_dir: Path) -> b
     name by their paths in `out_dir` is read from there.
     """
     text = json.dumps(data, ensure_ascii=False, allow_nan=False)
+    data = data | {"fonts": ["DejaVu Sans"] if foreign(text) else []}
+    text = json.dumps(data, ensure_ascii=False, allow_nan=False)
     files: Any = {name: resource("report", name).read_bytes() for name in (*template, *_SHARED)}
     files["main.typ"] = files.pop(template[0])
-    files["data.json"] = text.encode()
-    pdf: bytes = typst.compile(files, root=out_dir, ignore_system_fonts=True, timestamp=0)
+    files["data.json"] = text.encode("utf-8", "replace")
+    pdf: bytes = typst.compile(
+        files,
+        root=out_dir,
+        font_paths=[font_folder()] if foreign(text) else [],
+        ignore_system_fonts=not lacking(text),
+        timestamp=0,
+    )
     return pdf

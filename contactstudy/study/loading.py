@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from contactstudy.exceptions import InputError
+from contactstudy.files import is_reserved
 from contactstudy.given_files import is_file, toml_file
 from contactstudy.resources import resource
 from contactstudy.study.axes.keys import TABLES, apply_quick
@@ -173,8 +174,9 @@ def load_companions(study: Any, quick: bool = False, last: bool = False) -> list
     """
     found, problems = [], []
     files = (*OUTPUTS, *find_kind(study.kind).files)
-    taken = dict.fromkeys(files, "a file or folder of the results")
-    taken[study.name] = "the study that it accompanies"
+    # some disks do not tell capitals
+    taken = dict.fromkeys(map(str.lower, files), "a file or folder of the results")
+    taken[study.name.lower()] = "the study that it accompanies"
     for name in study.companions:
         try:
             made = load_study(name, main=study, quick=quick)
@@ -182,12 +184,13 @@ def load_companions(study: Any, quick: bool = False, last: bool = False) -> list
         except InputError as error:
             problems += [f"companion {name}: {problem}" for problem in error.problems]
             continue
-        if made.name in taken:
+        like = "a device of Windows" if is_reserved(made.name) else taken.get(made.name.lower())
+        if like:
             problems.append(
-                f"companion {name}: is called {made.name} like {taken[made.name]}; its results "
+                f"companion {name}: is called {made.name} like {like}; its results "
                 "go into a folder of that name, so give its file another one"
             )
-        taken[made.name] = f"the companion {name}"
+        taken[made.name.lower()] = f"the companion {name}"
         found.append(made)
     raise_if(problems)
     return found

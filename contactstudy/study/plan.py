@@ -93,7 +93,8 @@ class Plan:
     @property
     def warnings(self) -> tuple[str, ...]:
         """What the user should know, each once."""
-        return tuple(dict.fromkeys(w for p in self.all for w in p.inputs.warnings))
+        told = (w for p in self.all for w in (*p.inputs.warnings, *p.study.remarks))
+        return tuple(dict.fromkeys(told))
 
     def kept(self, piece: Piece) -> Kept:
         """A finished piece of work."""

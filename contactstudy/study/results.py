@@ -25,6 +25,7 @@ from typing import TYPE_CHECKING, Any
 from contactstudy.exceptions import InputError
 from contactstudy.files import write_file, writing
 from contactstudy.store import netcdf_attributes
+from contactstudy.texts import json_text
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -61,8 +62,9 @@ class StudyResults:
     kind: str = "passage"
     #: What belongs to the study and not to one run; names are those of groups in ``result.nc``.
     groups: Mapping[str, xr.Dataset] = field(default_factory=dict)
-    #: ``seed``, ``hash`` (of all parameters), ``versions`` (package -> version), ``mesh`` (the
-    #: recipe of the solid rail, or None), ``files`` (input file -> SHA-256).
+    #: ``seed``, ``hash`` (of all parameters), ``versions`` (package -> version), ``code`` (hash of
+    #: the program), ``mesh`` (the recipe of the solid rail, or None), ``files`` (input file ->
+    #: SHA-256).
     provenance: Mapping[str, Any] = field(default_factory=dict)
     #: Studies whose results stand in the same report.
     companions: tuple[StudyResults, ...] = ()
@@ -93,7 +95,7 @@ class StudyResults:
 
         attrs = {key: getattr(self, key) for key in _TEXTS} | {"Conventions": "CF-1.11"}
         for key in _JSON:
-            attrs[key] = json.dumps(getattr(self, key), ensure_ascii=False)
+            attrs[key] = json_text(getattr(self, key))
         attrs["runs"] = json.dumps(list(self.runs))
         attrs["companions"] = json.dumps([c.name for c in self.companions])
         attrs["reference"] = self.reference or ""
@@ -119,7 +121,7 @@ def write_results(results: StudyResults, out_dir: Path) -> list[Path]:
     files = [Path(out_dir) / RESULT_FILE, Path(out_dir) / METRICS_FILE]
     with writing(files[0]) as stream:
         results.tree.to_netcdf(stream, engine="h5netcdf")
-    write_file(files[1], json.dumps(results.metrics, indent=2, ensure_ascii=False) + "\n")
+    write_file(files[1], json_text(results.metrics, indent=2) + "\n")
     return files
 
 

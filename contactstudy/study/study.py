@@ -7,7 +7,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar
 
-from contactstudy.validation import Key, Naming, Parameters, parameters
+from contactstudy.plot.fonts import remark
+from contactstudy.texts import json_text
+from contactstudy.validation import Key, Lines, Naming, Parameters, parameters
 from contactstudy.validation.base import check
 
 TEXTS = ("title", "description", "companions")
@@ -25,7 +27,7 @@ class Study(Parameters):
 
     name: Annotated[str, Key(""), "stem of the file"]
     title: Annotated[str, "one line; the name if left out"] = ""
-    description: Annotated[str, "paragraphs"] = ""
+    description: Annotated[str, Lines(), "paragraphs"] = ""
     companions: Annotated[tuple[str, ...], "studies whose results stand in the same report"] = ()
     reference: Annotated[str | None, Key(""), "run that the others are compared with"] = None
 
@@ -33,6 +35,12 @@ class Study(Parameters):
         """Refuse what is no text; the title is the name if it is left out."""
         super().__post_init__()
         object.__setattr__(self, "title", self.title or self.name)
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """What its user should know of its texts."""
+        told = remark(self.name, json_text([self.title, self.description, self.config()]))
+        return (told,) if told else ()
 
     @abstractmethod
     def config(self) -> dict[str, Any]:

@@ -29,8 +29,14 @@ from contactstudy.study.kind import find_kind
 from contactstudy.study.loading import base_of, load_companions
 from contactstudy.study.results import StudyResults
 from contactstudy.study.study import Study
+from contactstudy.texts import visible
 
 _LONG = 12  # values of a list
+
+
+def console(stderr: bool = False) -> Console:
+    """What commands print on: texts are shown as they are, and nothing in them is markup."""
+    return Console(stderr=stderr, markup=False, emoji=False)
 
 
 class TerminalReporter:
@@ -41,7 +47,7 @@ class TerminalReporter:
         self._tasks: dict[str, TaskID] = {}
         self._bars = Progress(
             SpinnerColumn(),
-            TextColumn("{task.description}"),
+            TextColumn("{task.description}", markup=False),
             BarColumn(),
             TaskProgressColumn(),
             TimeElapsedColumn(),
@@ -65,7 +71,7 @@ class TerminalReporter:
 
     def note(self, text: str) -> None:
         """Print a line above the bars."""
-        self._console.print(text, markup=False, highlight=False, soft_wrap=True)
+        self._console.print(visible(text), highlight=False, soft_wrap=True)
 
     def begin(self, name: str, total: int) -> None:
         """Add a bar that waits for its first step."""
@@ -102,7 +108,7 @@ def print_results(results: StudyResults, out_dir: Path, console: Console) -> Non
     shown = summary if results.swept else find_kind(results.kind).summary
     for item in shown(results):
         console.print(item)
-    console.print(f"results, figures and report: {out_dir}", markup=False, soft_wrap=True)
+    console.print(visible(f"results, figures and report: {out_dir}"), soft_wrap=True)
 
 
 def print_check(study: Study, console: Console, reporter: Reporter, quick: bool = False) -> None:
@@ -123,9 +129,9 @@ def print_check(study: Study, console: Console, reporter: Reporter, quick: bool 
         needs = ["the study as its file has it:", *needs, *check_swept(study)]
     console.print(Text(study.title, "bold"), f"({study.name})")
     if study.description:
-        console.print(" ".join(study.description.split()), markup=False)
-    for warning in inputs[0].warnings:
-        console.print(f"warning: {warning}", markup=False, soft_wrap=True)
+        console.print(" ".join(study.description.split()))
+    for warning in (*inputs[0].warnings, *study.remarks):
+        console.print(visible(f"warning: {warning}"), soft_wrap=True)
     units = study.units()
     values = Table("key", "value", "SI unit", show_header=True)
     for key, value in _flat(study.config()):
@@ -151,4 +157,4 @@ def _text(value: Any) -> str:
         return f"{_text(value[0])}, {_text(value[1])} ... {_text(value[-1])} ({len(value)} values)"
     if isinstance(value, list):
         return ", ".join(_text(item) for item in value)
-    return str(value)
+    return visible(str(value))

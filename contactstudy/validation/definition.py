@@ -8,6 +8,7 @@ from functools import cache, cached_property
 from types import NoneType, UnionType
 from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_type_hints
 
+from contactstudy.texts import problem_of_text
 from contactstudy.units import Limits, UnitError
 from contactstudy.validation import metadata as m
 from contactstudy.validation.messages import any_of, did_you_mean
@@ -34,6 +35,8 @@ class Parameter:
         The parameter is an object that a deciding key chooses.
     needed
         It has no default.
+    lines
+        A text of several lines.
     """
 
     name: str
@@ -50,6 +53,7 @@ class Parameter:
     file: m.File | None = None
     needed: bool = False
     usual: m.Usual | None = None
+    lines: bool = False
 
     @property
     def unit(self) -> str:
@@ -125,7 +129,10 @@ class Parameter:
         if kind is str:
             if not isinstance(value, str | os.PathLike):
                 raise UnitError("must be text")
-            return os.fspath(value)
+            text = os.fspath(value)
+            if self.file is None and (problem := problem_of_text(text, self.lines)):
+                raise UnitError(problem)
+            return text
         if kind in (int, float):
             try:
                 return self.limits(value)
@@ -191,6 +198,7 @@ def _parameter(field: "dataclasses.Field[Any]", hint: Any) -> Parameter:
         written=found.get(m.Written, base.written),
         multiples=found.get(m.Multiples, base.multiples),
         file=found.get(m.File, base.file),
+        lines=m.Lines in found,
         needed=field.default is field.default_factory is dataclasses.MISSING,
         usual=found.get(m.Usual, base.usual),
     )

@@ -74,6 +74,11 @@ class File:
 
 
 @dataclass(frozen=True)
+class Lines:
+    """The text may have several lines."""
+
+
+@dataclass(frozen=True)
 class Same:
     """The parameter `name` of another class: its unit, limits and meaning."""
 

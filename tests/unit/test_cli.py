@@ -200,8 +200,8 @@ def test_a_missing_figure_or_report_is_made_again_from_finished_runs(short, out,
 
 def test_a_changed_value_computes_only_what_it_concerns(short, out):
     first = {p.name for p in (out / "runs").glob("*.npz")}
-    setting = "runs.point.k_r=hertz_tangent"
-    assert cli.main(["run", str(short), "--out", str(out), "--set", setting]) == 0
+    setting = ["--set", "runs.point.k_r=hertz_tangent", "--overwrite"]
+    assert cli.main(["run", str(short), "--out", str(out), *setting]) == 0
     new = {p.name for p in (out / "runs").glob("*.npz")} - first
     assert len(new) == 1 and new.pop().startswith("point-")
 

@@ -18,6 +18,7 @@ ORDER = (
         "resources",
         "files",
         "given_files",
+        "texts",
         "version",
         "code",
         "compiled",

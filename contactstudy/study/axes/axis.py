@@ -47,7 +47,8 @@ def axis_of(data: xr.Dataset, dim: str) -> AxisOf:
     values, attrs = data[dim].values, data[dim].attrs
     title = title_of(dim)
     if values.dtype.kind not in "iuf":
-        names = tuple(label(str(v)) for v in values.tolist())
+        texts = (str(v) for v in values.tolist())
+        names = tuple(v if {".", "/"} & set(v) else label(v) for v in texts)  # files as they are
         return AxisOf(title, np.arange(float(len(values))), names, numeric=False)
     unit, factor = _shown(attrs["units"], np.asarray(values, dtype=float))
     told = f"times the {of}" if (of := attrs.get("factor_of")) else pretty_unit(unit)

@@ -118,7 +118,7 @@ def test_description_is_set_in_paragraphs(made):
     other = type(study)(**{**vars(study), "description": described})
     blocks = content(other, False)["subject"][:2]
     texts = ["".join(part["text"] for part in block["parts"]) for block in blocks]
-    assert texts == ["Lines of a paragraph with “a_run”.", "Another one."]
+    assert texts == ["Lines of a paragraph with `a_run`.", "Another one."]
 
 
 def test_passing_table_puts_models_side_by_side(made):

@@ -147,13 +147,15 @@ def test_what_a_kind_refuses_and_what_it_has_not(pendulum, tmp_path, capsys):
         (["a/one.toml", "b/one.toml"], r"b/one.toml: is called one like the companion .*a/one"),
         (["a/one.toml", "a/one.toml"], r"is called one like the companion"),
         (["a/main.toml"], r"is called main like the study that it accompanies"),
+        (["a/One.toml", "b/one.toml"], r"is called one like the companion .*a/One"),
+        (["a/Aux.toml"], r"is called Aux like a device of Windows"),
         (["a/figures.toml"], r"is called figures like a file or folder of the results"),
     ],
 )
 def test_companions_that_would_overwrite_each_other_are_refused(
     tmp_path, capsys, companions, message
 ):
-    for name in ("a/one", "b/one", "a/main", "a/figures"):
+    for name in ("a/one", "a/One", "a/Aux", "b/one", "a/main", "a/figures"):
         (path := tmp_path / f"{name}.toml").parent.mkdir(exist_ok=True)
         path.write_text('[irregularity]\nspectrum = "smooth"\n')
     path = tmp_path / "main.toml"

@@ -7,6 +7,7 @@ from collections.abc import Collection, Iterable
 from dataclasses import dataclass, field
 from typing import Annotated, Any, ClassVar
 
+from contactstudy.files import LONGEST_NAME, is_reserved
 from contactstudy.irregularity import Irregularity
 from contactstudy.solvers.journey import Journey
 from contactstudy.study import study
@@ -43,7 +44,7 @@ SECTIONS: dict[str, Table] = {
     "measured": MeasuredRecord,
 }
 """Tables of a study file."""
-_RUN_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
+_RUN_NAME = re.compile(rf"[A-Za-z][A-Za-z0-9_]{{,{LONGEST_NAME - 1}}}")
 IRREGULARITY = "irregularity"
 """Group of the results with what Fig. 1 shows; so no run may have this name."""
 MEASURED = "measured"
@@ -200,14 +201,26 @@ def wrong_types(tables: dict[str, tuple[Table | type, Any]]) -> list[str]:
 
 def wrong_runs(names: Iterable[str]) -> list[str]:
     """Complaints about names that no run can have."""
-    problems = []
+    problems, taken = list[str](), dict[str, str]()
     for name in names:
         if not isinstance(name, str) or not _RUN_NAME.fullmatch(name):
-            problems.append(f"runs.{name}: a run's name is letters, digits and _, a letter first")
+            problems.append(
+                f"runs.{name}: a run's name is letters, digits and _, a letter first, at most "
+                f"{LONGEST_NAME} of them"
+            )
+        elif is_reserved(name):
+            problems.append(f"runs.{name}: no file may have this name on Windows; choose another")
+        elif name.lower() in taken:
+            problems.append(
+                f"runs.{name}: differs from the run {taken[name.lower()]} only in capitals, and "
+                "some disks do not tell such files apart; choose another name"
+            )
         elif name in (IRREGULARITY, MEASURED):
             problems.append(
                 f"runs.{name}: a run cannot be called '{name}', which names its own group"
             )
+        if isinstance(name, str):
+            taken.setdefault(name.lower(), name)
     return problems
 
 
