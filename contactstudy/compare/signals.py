@@ -41,12 +41,9 @@ def at_station(run: xr.Dataset, name: str, at: float | None) -> Array:
 
 
 def position(run: xr.Dataset) -> Array:
-    """Position (time,) along the track in m; of a run backward the way from its start, negative.
-
-    It increases, which norms over positions need.
-    """
+    """Position (time,) along the track in m; of a run backward from where the train enters."""
     x = values(run, "position")
-    return -x if run.attrs.get("travel") == "backward" else x
+    return run.attrs["start"] + x[0] - x if run.attrs.get("travel") == "backward" else x
 
 
 def speed(run: xr.Dataset) -> float:

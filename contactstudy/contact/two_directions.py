@@ -10,6 +10,10 @@ import numpy as np
 
 from contactstudy.arrays import Array, BoolArray
 
+LATERAL_STIFFNESS = 1e9
+"""N/m, of the contact across the rail without slip: 0.8 of the normal tangent of 1.2 GN/m, the
+ratio 2(1 - nu)/(2 - nu) of R. D. Mindlin, J. Appl. Mech. 16 (1949) 259."""
+
 
 def forces_in_two_directions(
     lateral: BoolArray,

@@ -132,10 +132,12 @@ class Passage(Generic[T]):
             level = self.faded(contact)
             return level(x) if lateral or contact_filter is None else contact_filter(level, x)
 
-        found = self._each(along)
-        if isinstance(self.track, StructureTrack):
-            found *= self.track.on_track(self.positions)  # none on the ground beyond its ends
-        return found
+        if not isinstance(self.track, StructureTrack):
+            return self._each(along)
+        # none on the ground beyond the track's ends, where it need not be known
+        length = self.track.track.length
+        found = self._each(lambda contact, x: along(contact, np.minimum(x, length)))
+        return found * self.track.on_track(self.positions)
 
     def _each(self, along: Callable[[int, Array], Array]) -> Array:
         """A function of contact and way (n_times,), once for contacts on one rail at one place."""

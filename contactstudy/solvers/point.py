@@ -19,6 +19,7 @@ from contactstudy.contact.laws import (
 from contactstudy.contact.patch_laws import PatchLaw
 from contactstudy.contact.point_coupling import PointCoupling, PointGaps
 from contactstudy.contact.point_wheel import PointWheel
+from contactstudy.contact.two_directions import LATERAL_STIFFNESS
 from contactstudy.dynamics.stepper import Integrator, average_acceleration, generalised_alpha
 from contactstudy.irregularity import Profile
 from contactstudy.irregularity.rails import RailProfiles
@@ -38,9 +39,6 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
-LATERAL_STIFFNESS = 1e9
-"""N/m, of the contact across the rail without slip: 0.8 of the normal tangent of 1.2 GN/m, the
-ratio 2(1 - nu)/(2 - nu) of R. D. Mindlin, J. Appl. Mech. 16 (1949) 259."""
 RIGID_SPECTRAL_RADIUS = 0.5
 """Spectral radius of the integrator that a rigid contact gets when none is asked for."""
 

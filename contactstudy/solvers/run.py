@@ -5,14 +5,16 @@ from __future__ import annotations
 import itertools
 import time
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 from contactstudy.dynamics.statics import static_start
 from contactstudy.dynamics.stepper import Coupling, Integrator, Steps, march
+from contactstudy.solvers.bridge_histories import BridgeHistories
 from contactstudy.solvers.histories import Histories
-from contactstudy.solvers.observers import Observer
+from contactstudy.solvers.observers import Observer, Watch
 from contactstudy.solvers.passage import Passage
 from contactstudy.track.discrete import DiscreteTrack
+from contactstudy.track.structure import StructureTrack
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -33,7 +35,10 @@ def run_through(
 
     began = time.perf_counter()
     journey, system, external = passage.journey, passage.system, passage.external
-    watches = [Histories(passage), *(o.watch(passage, coupling) for o in observers)]
+    watches: list[Watch] = [Histories(passage)]
+    if isinstance(passage.track, StructureTrack):
+        watches.append(BridgeHistories(cast(Passage[StructureTrack], passage)))
+    watches += [o.watch(passage, coupling) for o in observers]
     start = static_start(system, coupling, external, passage.wheels)
     steps = Steps(journey.time_step, journey.n_steps, lambda k: float(passage.positions[k, 0]))
     states = march(system, coupling, start, steps, integrator, external)
@@ -55,6 +60,7 @@ def run_through(
             "static_load": [float(load) for load in passage.static_loads[~passage.lateral]],
             "speed": journey.speed,
             "travel": journey.travel,
+            "start": journey.start,
             "fade_in": journey.fade_in,
             "dofs": passage.n_dofs,
             "steps": journey.n_steps,

@@ -41,6 +41,10 @@ def _spans(value: Any, unit: str) -> Any:
     return found
 
 
+def _listed(value: Any, unit: str) -> Any:
+    return [value] if as_list(value) is None else value
+
+
 @dataclass(frozen=True)
 class Pier(Parameters):
     """A column under each inner support, on springs and dashpots of its foundation.
@@ -109,7 +113,7 @@ class Bridge(Parameters):
         "lengths of all spans",
     ] = (32.0,) * 10  # fmt: skip
     spans_per_deck: Annotated[
-        tuple[int, ...], AtLeast(1),
+        tuple[int, ...], AtLeast(1), Written(_listed),
         "of each deck how many spans it runs over; one number for all, 1 is simply supported",
     ] = (1,)  # fmt: skip
     deck: Annotated[
@@ -141,6 +145,10 @@ class Bridge(Parameters):
     fixed_support: Annotated[
         Literal["first", "last"], "of each deck, which holds it along the track"
     ] = "first"
+    motion: Annotated[
+        Literal["planar", "space"] | None,
+        "of the track: vertical only, both rails as one; or in space; as the vehicle if left out",
+    ] = None
     piers: Annotated[
         Pier | None,
         Variants("piers", {"rigid": None, "column": Pier}, "what inner supports stand on"),
@@ -164,6 +172,11 @@ class Bridge(Parameters):
             problems.append(complaint(key("damping_frequencies"), list(pair), "must increase (Hz)"))
         return problems
 
+    def resolved(self) -> dict[str, Any]:
+        """As in `Parameters`; the damping's frequencies, without what is left out."""
+        values = super().resolved() | {"damping_frequencies": list(self._damped_at)}
+        return {key: value for key, value in values.items() if value is not None}
+
     @property
     def length(self) -> float:
         """Of the whole track [m]."""
@@ -186,9 +199,12 @@ class Bridge(Parameters):
     @property
     def rayleigh(self) -> tuple[float, float]:
         """Coefficients a [1/s] and b [s] of the deck's damping a M + b K."""
+        return rayleigh(self.deck.damping_ratio, *self._damped_at)
+
+    @property
+    def _damped_at(self) -> tuple[float, float]:
         first = self.deck.frequency(max(self.spans))
-        pair = self.damping_frequencies or (first, 4.0 * first)
-        return rayleigh(self.deck.damping_ratio, *pair)
+        return self.damping_frequencies or (first, 4.0 * first)
 
     @property
     def lateral_of_rails(self) -> tuple[float, float]:

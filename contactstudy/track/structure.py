@@ -9,19 +9,20 @@ from functools import cached_property
 from typing import Annotated, ClassVar
 
 import numpy as np
+import scipy.sparse as sp
 
 from contactstudy.arrays import Array, IntArray
 from contactstudy.exceptions import InputError
 from contactstudy.irregularity.shapes import smoothstep
 from contactstudy.track.beam import BeamTrack, RailTheory
-from contactstudy.track.bridge import Bridge
+from contactstudy.track.bridge import Bridge, of_support
 from contactstudy.track.discrete import AssembledTrack, without_held
 from contactstudy.track.frame import Chain, Frame
 from contactstudy.track.model import Track
 from contactstudy.track.rail import Direction
 from contactstudy.track.space_beam import N_DOFS, RX, RY, RZ, UY, UZ, displacement
 from contactstudy.track.structure_nodes import Nodes, nodes_of
-from contactstudy.track.structure_springs import all_springs
+from contactstudy.track.structure_springs import all_springs, bearings
 from contactstudy.track.supports import SupportedRail
 from contactstudy.validation import Parameters, Same
 
@@ -76,6 +77,11 @@ class StructureTrack(AssembledTrack, Parameters):
         assert self.track.structure is not None
         return self.track.structure
 
+    @property
+    def n_dofs_forecast(self) -> int:
+        """Number of dofs, without assembling anything."""
+        return int(self.nodes.dofs(self.planar).max()) + 1
+
     def rail_rows(self, x: Array) -> tuple[IntArray, Array]:
         """See `DiscreteTrack`: the right rail, vertical, without the entry."""
         return self._rows(x, RIGHT, "Z")
@@ -118,6 +124,29 @@ class StructureTrack(AssembledTrack, Parameters):
         weights = np.einsum("d,mdk->mk", row, motion)
         columns = np.r_[np.array(felt), N_DOFS + np.array(felt)]
         return without_held(self._frame.dof.ravel()[dofs[:, columns]], weights[:, columns])
+
+    def deck_at(self, x: float) -> int | None:
+        """Number of the deck at X [m]; None on the approaches."""
+        found = [k for k, ends in enumerate(self.bridge.decks) if ends[0] <= x <= ends[-1]]
+        return found[0] if found else None
+
+    @cached_property
+    def bearing_forces(self) -> tuple[Array, sp.csr_array, sp.csr_array]:
+        """X (m,) of the supports, and vertical forces on them in tension (m, n_dofs) @ u and @ v.
+
+        All bearings of a support count together.
+        """
+        supports = self.bridge.supports
+        size = (len(supports), self.n_dofs)
+        forces = [sp.csr_array(size), sp.csr_array(size)]
+        for one in bearings(self.nodes, ("Z",)):
+            at = of_support(one.x, supports)
+            for k, values in enumerate((one.springs.stiffness, one.springs.damping)):
+                gather = sp.csr_array(
+                    (values, (at, np.arange(len(at)))), shape=(len(supports), len(at))
+                )
+                forces[k] = forces[k] + gather @ self._frame.selected(one.springs.rows)
+        return supports, sp.csr_array(forces[0]), sp.csr_array(forces[1])
 
     @cached_property
     def nodes(self) -> Nodes:

@@ -15,6 +15,7 @@ from contactstudy.solids.wheel import WheelFlexibility, WheelRecipe, rigid_wheel
 from contactstudy.solids.wheel_modes import ModesRecipe, WheelModes
 from contactstudy.solids.wheel_recipe import FAR_STEP, FAR_STEP_OF_MODES
 from contactstudy.solvers.journey import Journey
+from contactstudy.study.kinds.passage.on_bridge import planar_on, vehicle_on
 from contactstudy.study.kinds.passage.placing import contact_zone, geometry, meshed_rail
 from contactstudy.study.kinds.passage.runs import PointRun
 from contactstudy.study.kinds.passage.schema import Study
@@ -23,6 +24,8 @@ from contactstudy.track.beam import BeamTrack
 from contactstudy.track.discrete import DiscreteTrack
 from contactstudy.track.model import Track
 from contactstudy.track.solid import SolidTrack, solid_rail
+from contactstudy.track.structure import StructureTrack
+from contactstudy.vehicle import Vehicle
 
 
 def recipe(study: Study) -> CellRecipe:
@@ -80,6 +83,9 @@ def point_track(study: Study, table: PointRun, described: Track) -> DiscreteTrac
     """The track of a point run: on a beam, or on its meshed rail."""
     if table.rail == "solid":
         return solid_track(study, described)
+    if described.structure is not None:
+        planar = planar_on(described, vehicle(study))
+        return StructureTrack(described, table.rail, table.elements_per_bay, planar)
     if table.bay_compliance:
         return corrected_beam(bay_recipe(study, table, described))
     return BeamTrack(
@@ -131,9 +137,16 @@ def modes(study: Study, run: str) -> WheelModes | None:
     return cached(modes_body(modes_recipe(study)))
 
 
+def vehicle(study: Study) -> Vehicle:
+    """The vehicle on one rail, or on both of a bridge."""
+    return vehicle_on(study.track, study.vehicle)
+
+
 def journey(study: Study, run: str) -> Journey:
-    """The journey with the time step of a run."""
-    return replace(study.journey, time_step=study.time_step(run))
+    """The journey with the time step of a run, to where it travels."""
+    table = study.runs[run]
+    travel = table.travel if isinstance(table, PointRun) else "forward"
+    return replace(study.journey, time_step=study.time_step(run), travel=travel)
 
 
 def frames_at(study: Study) -> tuple[float, ...]:

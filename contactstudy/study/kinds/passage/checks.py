@@ -11,6 +11,7 @@ from contactstudy.irregularity.depth_map import DepthMap
 from contactstudy.irregularity.flats import LocalDefect
 from contactstudy.profiles.wheel_file import wheel_dimensions, wheel_sections
 from contactstudy.solvers.journey import Journey
+from contactstudy.study.kinds.passage.on_bridge import problems_of_runs, vehicle_on
 from contactstudy.study.kinds.passage.record import MeasuredRecord
 from contactstudy.study.kinds.passage.relations import Related
 from contactstudy.study.kinds.passage.runs import PointRun, Run, SurfaceRun
@@ -39,11 +40,13 @@ def combined(tables: Mapping[str, Any], runs: Mapping[str, Run]) -> list[str]:
         journey = None  # its own complaint is enough
     made = None
     try:
-        made = None if vehicle is None else vehicle.vehicle()
+        if vehicle is not None:
+            made = vehicle.vehicle() if track is None else vehicle_on(track, vehicle)
     except InputError:
         vehicle = None  # complained about
     if made is not None and runs:
         problems += _wheels(made, irregularity, runs)
+        problems += problems_of_runs(track, made, runs, irregularity) if track is not None else ()
     if journey is not None:
         for name, run in runs.items():
             if run.time_step is not None:
@@ -85,8 +88,8 @@ def combined(tables: Mapping[str, Any], runs: Mapping[str, Run]) -> list[str]:
 def _wheels(
     vehicle: Vehicle, irregularity: Irregularity | None, runs: Mapping[str, Run]
 ) -> list[str]:
-    """Runs and defects that need one wheel, beside a vehicle with more; a second rail."""
-    problems = vehicle.problems_on_one_rail()
+    """Runs and defects that need one wheel, beside a vehicle with more."""
+    problems = list[str]()
     if vehicle.n_wheels == 1:
         return problems
     needs = f"needs a vehicle with one wheel (here {vehicle.n_wheels})"

@@ -11,7 +11,7 @@ from contactstudy.solids.cache import CachedBody, cached, is_cached
 from contactstudy.solvers import observers
 from contactstudy.solvers.observers import Observer
 from contactstudy.study.kinds.passage import build, contact
-from contactstudy.study.kinds.passage.roughness import irregularity_of
+from contactstudy.study.kinds.passage.roughness import irregularity_of, irregularity_of_rails
 from contactstudy.study.kinds.passage.runs import PointRun, SurfaceRun
 from contactstudy.study.kinds.passage.schema import Study
 from contactstudy.study.kinds.passage.twins import untwinned
@@ -35,14 +35,18 @@ def execute_run(study: Study, run: str, progress: Progress | None = None) -> xr.
 def _point(study: Study, run: str, table: PointRun, progress: Progress | None) -> xr.Dataset:
     from contactstudy.solvers.point import point_contact
 
+    vehicle, smooth = build.vehicle(study), table.irregularity == "smooth"
     return point_contact(
         build.point_track(study, table, build.track(study)),
-        study.vehicle.vehicle(),
-        irregularity_of(study, table.irregularity == "smooth", table.direction),
+        vehicle,
+        irregularity_of(study, smooth, table.direction)
+        if vehicle.planar
+        else irregularity_of_rails(study, smooth),
         build.journey(study, run),
         law=contact.contact_law(study, run),
         contact_filter=contact.contact_filter(study, run),
         wheel=contact.point_wheel(study, run),
+        lateral_stiffness=table.lateral_k_r,
         observers=_reports(progress),
         integrator=table.method(),
     )

@@ -17,12 +17,14 @@ from contactstudy.solids.recipe import CellRecipe
 from contactstudy.solids.wheel_recipe import WheelRecipe
 from contactstudy.study.kinds.passage import build, contact
 from contactstudy.study.kinds.passage.level import deviations
+from contactstudy.study.kinds.passage.on_bridge import planar_on
 from contactstudy.study.kinds.passage.roughness import irregularity_of
 from contactstudy.study.kinds.passage.runs import PointRun
 from contactstudy.study.kinds.passage.schema import Study
 from contactstudy.study.kinds.passage.twins import untwinned
 from contactstudy.track.beam import BeamTrack, RailTheory
 from contactstudy.track.model import DiscreteSupports, Slab, Track
+from contactstudy.track.structure import StructureTrack
 from contactstudy.validation import raise_if
 
 _HEAD = "run", "dofs", "steps", "expected time (s)", "memory (GB)"
@@ -52,14 +54,21 @@ def _forecast(study: Study, run: str, track: Track) -> Needs:
     """What one run of a study on its `track` will need."""
     table = study.runs[run]
     steps = build.journey(study, run).n_steps
-    wheels = study.vehicle.vehicle().n_dofs
+    wheels = build.vehicle(study).n_dofs
     terms = study.irregularity.terms if study.irregularity.generated else 1
     seconds = START + steps * terms * TERM
     memory = PROCESS + steps * (CHANNELS + len(study.journey.stations)) * KEPT
     if isinstance(table, PointRun) and not table.needs_solid:
         theory: RailTheory = "timoshenko" if table.rail == "timoshenko" else "euler"
-        beam = theory, table.elements_per_bay, table.local_compliance, table.direction
-        dofs = BeamTrack(track, *beam).n_dofs_forecast + wheels
+        dofs = wheels
+        if track.structure is not None:
+            planar = planar_on(track, build.vehicle(study))
+            dofs += StructureTrack(track, theory, table.elements_per_bay, planar).n_dofs_forecast
+            steps_dear = 1.0 + 0.5 * build.vehicle(study).n_contacts / 10
+            seconds += steps * POINT_STEP * steps_dear
+        else:
+            beam = theory, table.elements_per_bay, table.local_compliance, table.direction
+            dofs += BeamTrack(track, *beam).n_dofs_forecast
         seconds += dofs * ASSEMBLY + steps * (POINT_STEP + POINT_STEP_PER_DOF * dofs)
         return Needs(dofs, steps, seconds, memory + dofs * DOF)
     dofs = solid_dofs(study, track) + wheels

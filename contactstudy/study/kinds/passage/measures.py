@@ -99,7 +99,8 @@ def _own(run: xr.Dataset, start: float, of: Any) -> None:
     for name, variable in run.data_vars.items():
         signal = str(name)
         twin = signal.endswith((SMOOTH, SOFTER))
-        if variable.dims[-1:] != ("time",) or "station" in variable.dims or twin:
+        other = {"station", "support"} & set(variable.dims)
+        if variable.dims[-1:] != ("time",) or other or twin:
             continue
         values = np.asarray(variable.values, dtype=float)
         behind = _behind(values, x, start)

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
+from contactstudy.exceptions import InputError
 from contactstudy.given_files import is_file
 from contactstudy.study.kinds.passage.checks import combined
 from contactstudy.study.kinds.passage.runs import SOLVERS
@@ -67,10 +69,10 @@ def parse_study(
         solid = tables["solid"]
         if "solid" not in data or not solid.given("cell_length"):
             tables["solid"] = solid.fitting(tables["track"])
-    if {"track", "journey", "irregularity"} <= tables.keys():
-        tables["journey"] = fitted_journey(
-            tables["journey"], tables["irregularity"], tables["track"]
-        )
+    fitting = "journey", "irregularity", "track", "vehicle"
+    if set(fitting) <= tables.keys():
+        with suppress(InputError):  # complained about
+            tables["journey"] = fitted_journey(*(tables[key] for key in fitting))
     runs, wrong = _runs(data.get("runs", {}))
     texts, wrong_texts = read_texts(data)
     compare, wrong_compare = _compare(data, list(data["runs"]) if runs else [])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from contactstudy.exceptions import InputError
 from contactstudy.study.kinds.passage import contact
+from contactstudy.study.kinds.passage.on_bridge import vehicle_on
 from contactstudy.study.kinds.passage.relations import Finding, Related, meshed_patch
 from contactstudy.study.kinds.passage.runs import PointRun, SurfaceRun
 from contactstudy.study.kinds.passage.schema import Study
@@ -41,7 +42,7 @@ def remarks(study: Study) -> tuple[str, ...]:
         axes = hertz.semi_axis_x, hertz.semi_axis_y
         zone = solid.contact_half_length, solid.contact_half_width
         patch = meshed_patch(axes, zone, solid.mesh_size)
-    vehicle, radius = study.vehicle.vehicle(), study.vehicle.wheel_radius
+    vehicle, radius = vehicle_on(study.track, study.vehicle), study.vehicle.wheel_radius
     related = Related(
         study.journey, study.track, vehicle, radius, study.irregularity, study.runs, stiffness
     )

@@ -74,11 +74,21 @@ def irregularity_of(study: Study, smooth: bool = False, direction: Direction = "
     if smooth:
         return irr.SmoothRail()
     required = (study.journey.start, study.journey.end) if study.runs else None
+    if required and study.track.structure is not None:
+        required = 0.0, study.track.length  # wheels come from the ground before it
     touch = 0.0
     if study.irregularity.wheel_defect is not None and not study.solid.half:
         placed = geometry(study)
         touch = float(placed.wheel.point(placed.touch.wheel_s)[0])
     return study.irregularity.profile(direction, required, study.vehicle.wheel_radius, touch)
+
+
+def irregularity_of_rails(study: Study, smooth: bool = False) -> irr.RailProfiles:
+    """The profiles of both rails of a bridge, vertical and transverse."""
+    if smooth:
+        return irr.RailProfiles(irr.SmoothRail(), irr.SmoothRail())
+    required = (0.0, study.track.length) if study.runs else None
+    return irr.both_rails(study.irregularity, required, study.vehicle.wheel_radius)
 
 
 def describe(study: Study) -> Described:

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar, Literal
 
+from contactstudy.contact.two_directions import LATERAL_STIFFNESS
+from contactstudy.solvers.journey import Travel
 from contactstudy.study.kinds.passage.run import Run
 from contactstudy.study.kinds.passage.solid import WheelModel
 from contactstudy.track.beam import BeamTrack
@@ -21,6 +23,7 @@ from contactstudy.validation import (
     complaint,
     multiple,
 )
+from contactstudy.validation import quantities as q
 
 _BEAM = When("rail", "euler", "timoshenko")
 
@@ -63,6 +66,13 @@ class PointRun(Run):
         Multiples(("tangent", "secant", "hertz_tangent", "hertz_secant")),
         When("law", "linear"), "contact stiffness",
     ] = 1e11  # fmt: skip
+    lateral_k_r: Annotated[
+        q.Stiffness, "contact stiffness across the rail, of vehicles in three dimensions"
+    ] = LATERAL_STIFFNESS
+    travel: Annotated[
+        Travel, "over a bridge to +X, or to -X from the far end; the journey's positions count from"
+        " where the train enters"
+    ] = "forward"  # fmt: skip
     hertz_constant: Annotated[
         Literal["closed_form", "press"], When("law", "hertz"),
         "k_H of Hertz's closed form, or with the tangent of the press",

@@ -12,6 +12,7 @@ from contactstudy.irregularity import Irregularity
 from contactstudy.solvers.journey import Journey
 from contactstudy.study import study
 from contactstudy.study.kinds.passage.checks import combined
+from contactstudy.study.kinds.passage.on_bridge import journey_on, vehicle_on
 from contactstudy.study.kinds.passage.record import MeasuredRecord
 from contactstudy.study.kinds.passage.runs import SOLVERS, PointRun, SurfaceRun
 from contactstudy.study.kinds.passage.scan import ScanFiles
@@ -95,7 +96,7 @@ class Study(study.Study):
         raise_if(wrong_types(parts) + wrong_runs(runs))
         if not self.solid.given("cell_length"):
             object.__setattr__(self, "solid", self.solid.fitting(self.track))
-        fitted = fitted_journey(self.journey, self.irregularity, self.track)
+        fitted = fitted_journey(self.journey, self.irregularity, self.track, self.vehicle)
         object.__setattr__(self, "journey", fitted)
         raise_if(combined(vars(self), self.runs) + wrong_reference(self.reference, self.runs))
 
@@ -182,8 +183,12 @@ class Study(study.Study):
         return [key for key in SECTIONS if used.get(key, True)]
 
 
-def fitted_journey(journey: Journey, irregularity: Irregularity, track: Track) -> Journey:
-    """The journey, over a sinusoid with what was left out fitted to it."""
+def fitted_journey(
+    journey: Journey, irregularity: Irregularity, track: Track, vehicle: VehicleTable
+) -> Journey:
+    """The journey, over a sinusoid or a bridge with what was left out fitted to it."""
+    if track.structure is not None:
+        journey = journey_on(track, vehicle_on(track, vehicle), journey)
     if irregularity.spectrum != "sinusoid":
         return journey
     return journey.fitting(irregularity.wavelength, spacing(track))

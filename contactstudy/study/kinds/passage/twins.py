@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from contactstudy.solvers.dataset import POINT_SIGNALS, SECTION_SIGNALS
 from contactstudy.solvers.dataset import SIGNALS as RUN_SIGNALS
+from contactstudy.study.kinds.passage.on_bridge import vehicle_on
 from contactstudy.study.kinds.passage.runs import PointRun, SurfaceRun
 from contactstudy.study.kinds.passage.schema import Study
 from contactstudy.validation import multiple
@@ -58,7 +59,7 @@ def histories(study: Study) -> list[str]:
 
     Of several wheels there is only the time: the others have a dimension more.
     """
-    if study.vehicle.vehicle().n_wheels > 1:
+    if vehicle_on(study.track, study.vehicle).n_wheels > 1:
         return ["time"]
     surface = [r for r in study.runs.values() if isinstance(r, SurfaceRun)]
     found = ["time", "position", *(POINT_SIGNALS if len(surface) < len(study.runs) else ())]

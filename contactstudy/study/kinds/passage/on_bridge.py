@@ -1,0 +1,78 @@
+"""What is different where the track of a passage stands on a bridge."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from contactstudy.irregularity import Irregularity
+from contactstudy.solvers.journey import Journey
+from contactstudy.study.kinds.passage.run import Run
+from contactstudy.study.kinds.passage.runs import PointRun
+from contactstudy.track.model import Track
+from contactstudy.validation import complaint
+from contactstudy.vehicle import Train, Vehicle, VehicleTable
+from contactstudy.vehicle.axles import Axles
+
+
+def vehicle_on(track: Track, table: VehicleTable) -> Vehicle:
+    """The vehicle on a track: on both rails of a bridge, on the one rail of any other track.
+
+    A single wheel column, wheel or bogie stands on both rails as one.
+    """
+    if track.structure is not None and isinstance(table, Train | Axles):
+        return table.vehicle(rails=2)
+    return table.vehicle()
+
+
+def planar_on(track: Track, vehicle: Vehicle) -> bool:
+    """Whether a track on a bridge moves vertically only under a vehicle."""
+    assert track.structure is not None
+    motion = track.structure.motion
+    return motion == "planar" or (motion is None and "Y" not in vehicle.contact_directions)
+
+
+def journey_on(track: Track, vehicle: Vehicle, journey: Journey) -> Journey:
+    """The journey, on a bridge with what was left out fitted to it."""
+    if track.structure is None:
+        return journey
+    return journey.over_bridge(track.length, -float(vehicle.contact_offsets.min()))
+
+
+def problems_of_runs(
+    track: Track, vehicle: Vehicle, runs: Mapping[str, Run], irregularity: Irregularity | None
+) -> Iterator[str]:
+    """Runs and vehicles that are not possible on a bridge."""
+    structure = track.structure
+    if structure is None:
+        for name, run in runs.items():
+            if isinstance(run, PointRun) and run.travel == "backward":
+                yield complaint(
+                    f"runs.{name}.travel", run.travel, 'needs track.structure = "bridge"'
+                )
+        yield from vehicle.problems_on_one_rail()
+        return
+    planar = planar_on(track, vehicle)
+    if not planar and vehicle.planar:
+        yield (
+            'track.motion = "space": needs a vehicle on two rails, such as vehicle.type = "train"'
+            ' or "axle_loads"'
+        )
+    if planar and "Y" in vehicle.contact_directions:
+        yield 'track.motion = "planar": needs vehicle.model = "planar"'
+    if not planar:
+        for name in structure.deck.missing:
+            yield f"track.deck_{name}: is missing; a run in space needs it"
+    for name, run in runs.items():
+        if not isinstance(run, PointRun) or run.needs_solid:
+            yield f"runs.{name}: needs a meshed rail; the rails of a bridge are beams"
+            continue
+        if run.travel == "backward" and irregularity is not None and irregularity.rail_defect:
+            yield f'runs.{name}.travel: must be "forward" with irregularity.rail_defect'
+        for key, holds in {
+            "local_compliance": run.local_compliance,
+            "bay_compliance": run.bay_compliance,
+            "direction": run.direction == "Y",
+        }.items():
+            if holds:
+                allowed = "is not possible on a bridge"
+                yield complaint(f"runs.{name}.{key}", getattr(run, key), allowed)
