@@ -89,7 +89,8 @@ def parts(results: StudyResults) -> list[Part]:
     for name, data in results.designs.items():
         stem = name.replace(".", "_")
         own = [d for d in drawings if d.name.startswith(f"{stem}_")]
-        blocks: list[Block] = [figure(d.name, d.caption) for d in own]
+        blocks: list[Block] = [text(told) for told in _orders(results, name)]
+        blocks += [figure(d.name, d.caption) for d in own]
         for one in found:
             if one.design == name and one.rows:
                 names = [label(run) for run in data["run"].values] if "run" in data else []
@@ -112,6 +113,26 @@ _REFINED = (
     "believed; “not yet”: they are not, or too few to tell; “round-off”: refining changes nothing "
     "any more."
 )
+
+
+def _orders(results: StudyResults, design: str) -> list[str]:
+    """Which order is expected and why, and which runs have it."""
+    attrs = results.designs[design].attrs
+    expected, why = attrs.get("expected_order"), attrs.get("why", "")
+    if not attrs["refined"] or not (expected or why):
+        return []
+    head = f"Expected order: {expected:g}" if expected else "No order is expected"
+    told = f"{head}: {why}." if why else f"{head}."
+    for one in shown(results):
+        if expected and one.data.attrs["design"] == design and one.name.startswith("from_finest"):
+            lines = convergences(one)
+            yes = [f"{line.name} ({line.order_text})" for line in lines if line.agrees(expected)]
+            no = [f"{line.name} ({line.order_text})" for line in lines if not line.agrees(expected)]
+            told += f" {one.title.rpartition(' (')[0]}:"
+            told += f" observed of {', '.join(yes)};" if yes else ""
+            told += f" not of {', '.join(no)};" if no else ""
+            told = told.removesuffix(";") + "."
+    return [told]
 
 
 def _values(results: StudyResults, design: str, key: str) -> str:

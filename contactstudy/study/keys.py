@@ -31,7 +31,8 @@ value by value, or a sample, whose VALUES may be `"uniform 1 m to 2 m"`, `"log-u
 
 `"TABLE.KEY" = VALUES`, three or more numbers from coarse to fine, each key by itself, and crossed
 with the keys of `[sweep]`; gives observed order, limit, grid convergence index and a verdict.
-`expected = { "TABLE.KEY" = 2 }` states the order of the scheme.
+`expected = { "TABLE.KEY" = 2 }` states the order of the scheme, `why = { "TABLE.KEY" = "text" }`
+why it is that, or why none can be expected.
 
 ## [quick]
 

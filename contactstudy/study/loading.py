@@ -12,7 +12,7 @@ from contactstudy.exceptions import InputError
 from contactstudy.files import is_reserved
 from contactstudy.given_files import is_file, toml_file
 from contactstudy.resources import resource
-from contactstudy.study.axes.keys import TABLES, apply_quick
+from contactstudy.study.axes.keys import TABLES, apply_quick, without_keys
 from contactstudy.study.axes.swept import Source, Swept
 from contactstudy.study.axes.table import read_designs
 from contactstudy.study.kind import Kind, find_kind, kind_of_file
@@ -119,7 +119,7 @@ def _with_axes(
     quickly = apply_quick(axes if quick else deepcopy(axes), axes.pop("quick", {}))
     fixed = (quickly if quick else {}) | given
     for name in ("sweep", "refine"):
-        axes[name] = {k: v for k, v in axes.get(name, {}).items() if k not in fixed | sweep}
+        axes[name] = without_keys(axes.get(name, {}), fixed.keys() | sweep.keys())
     axes["sweep"] |= sweep
     source = Source(kind, path, deepcopy(data), fixed, None if main is None else base_of(main))
     designs, keep, wrong = read_designs(data | axes, kind, path.parent)

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections import Counter
 
-from contactstudy.figures.axes import lines, maps, refined, samples
+from contactstudy.figures.axes import effects, lines, maps, refined, samples
 from contactstudy.plot.drawing import Drawing
+from contactstudy.study.axes.effects import too_many
 from contactstudy.study.axes.shown import Shown, drawn, shown
 from contactstudy.study.results import StudyResults
 
@@ -30,4 +31,5 @@ def _of(quantity: Shown) -> list[Drawing]:
     longer = sorted((quantity.data.sizes[dim] for dim in free), reverse=True)
     if len(free) == 1 or (len(free) == 2 and longer[1] <= lines.FEW):
         return lines.drawings(quantity, free)
-    return maps.drawings(quantity, free) if len(free) <= maps.MOST else []
+    draw = effects.drawings if too_many(quantity, free) else maps.drawings
+    return draw(quantity, free)

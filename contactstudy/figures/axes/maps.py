@@ -16,11 +16,9 @@ from contactstudy.plot.drawing import Drawing
 from contactstudy.plot.style import BLACK, GREY
 from contactstudy.plot.text import capital, label, number
 from contactstudy.study.axes.axis import AxisOf, axis_of
+from contactstudy.study.axes.effects import PANELS
 from contactstudy.study.axes.shown import Shown
 
-MOST = 3
-"""Keys that a figure can show."""
-_PANELS = 9
 _LEVELS = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0)
 
 
@@ -40,10 +38,10 @@ def drawings(quantity: Shown, free: list[str]) -> list[Drawing]:
     made = []
     if not third:
         panels = [_panel(quantity, run, x, y, {}, label(run)) for run in quantity.runs]
-        for k in range(0, len(panels), _PANELS):
-            made.append(_drawing(quantity, x, y, panels[k : k + _PANELS], ""))
+        for k in range(0, len(panels), PANELS):
+            made.append(_drawing(quantity, x, y, panels[k : k + PANELS], ""))
     for run in quantity.runs if third else ():
-        names = axis_of(quantity.data, third[0]).names[:_PANELS]
+        names = axis_of(quantity.data, third[0]).names[:PANELS]
         panels = [_panel(quantity, run, x, y, {third[0]: k}, name) for k, name in enumerate(names)]
         made.append(_drawing(quantity, x, y, panels, run))
     return made

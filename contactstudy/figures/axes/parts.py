@@ -23,15 +23,18 @@ WIDE = 20.0
 """Ratio of the largest to the smallest value from which a scale is logarithmic."""
 
 
-def panels(number: int, beside: int, height: tuple[float, float]) -> tuple[Figure, Any]:
+def panels(
+    number: int, beside: int, height: tuple[float, float], sharex: bool = True
+) -> tuple[Figure, Any]:
     """Figure with a grid of panels, so many beside each other at most; those left over are hidden.
 
-    Height of a row, and what comes to all rows, in inch.
+    Height of a row, and what comes to all rows, in inch. All have one scale, but for x if that is
+    not shared.
     """
     columns = min(beside, number)
     rows = -(-number // columns)
     figure = new_figure(height[1] + height[0] * rows, 5.4 if columns == 1 else TEXT_WIDTH)
-    grid = figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
+    grid = figure.subplots(rows, columns, sharex=sharex, sharey=True, squeeze=False)
     for axes in grid.flat[number:]:
         axes.set_visible(False)
     return figure, grid

@@ -8,6 +8,7 @@ from itertools import product
 import numpy as np
 
 from contactstudy.arrays import Array
+from contactstudy.compare.refinement import AGREEMENT
 from contactstudy.plot.text import label
 from contactstudy.study.axes.axis import axis_of
 from contactstudy.study.axes.refinement import OUTCOMES, VERDICT
@@ -29,6 +30,10 @@ class Line:
     uncertainty: float
     index: float
     verdict: str
+
+    def agrees(self, expected: float) -> bool:
+        """Whether the observed order is the expected one, but for what a verdict allows."""
+        return bool(abs(self.order - expected) <= AGREEMENT * expected)
 
     @property
     def order_text(self) -> str:

@@ -51,6 +51,8 @@ def design_dataset(
     data.attrs = {"design": design.name, "combine": design.combine, "refined": design.refined}
     if design.expected:
         data.attrs["expected_order"] = design.expected
+    if design.why:
+        data.attrs["why"] = design.why
     data["variant"] = _texts(sizes, names, {n: n for n in names.values()}, "name of the variant")
     data[FAILURE] = _texts(sizes, names, failures, "why it could not be computed")
     every = _labels([entry for one in own for entry in one.values()])

@@ -34,6 +34,8 @@ class Design:
         Key that is refined, from coarse to fine; a dimension after all others. "" for none.
     expected : float, optional
         Order of convergence that the study states.
+    why : str
+        Why it is that, or why there is none; "" where the study does not say.
     """
 
     name: str
@@ -41,6 +43,7 @@ class Design:
     combine: str = GRID
     refined: str = ""
     expected: float | None = None
+    why: str = ""
 
     @property
     def swept(self) -> tuple[str, ...]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import Any
 
 from contactstudy.study.kind import Kind
@@ -10,6 +10,8 @@ from contactstudy.validation import Parameter, entries, unknown
 
 TABLES = ("sweep", "refine", "quick")
 """Tables that are not a kind's."""
+ABOUT = ("expected", "why")
+"""What ``[refine]`` says of its keys, by key."""
 
 
 def find_parameter(key: str, kind: Kind, data: Mapping[str, Any]) -> Parameter | str:
@@ -43,3 +45,14 @@ def apply_quick(data: dict[str, Any], quick: Mapping[str, Any]) -> dict[str, Any
         else:
             own[key] = value
     return own
+
+
+def without_keys(axes: Mapping[str, Any], keys: Collection[str]) -> dict[str, Any]:
+    """A table of axes without some of its keys, and without what it says of them by key."""
+    return {
+        name: {k: v for k, v in value.items() if k not in keys}
+        if isinstance(value, Mapping) and name in ABOUT
+        else value
+        for name, value in axes.items()
+        if name not in keys
+    }

@@ -17,7 +17,7 @@ from contactstudy.study.axes.design import (
     Design,
 )  # fmt: skip
 from contactstudy.study.axes.distributions import Quantile, distribution, points
-from contactstudy.study.axes.keys import find_parameter
+from contactstudy.study.axes.keys import ABOUT, find_parameter
 from contactstudy.study.axes.series import MOST, Series, series
 from contactstudy.study.kind import Kind
 from contactstudy.units import Limits, UnitError
@@ -43,7 +43,7 @@ def read_designs(
         if not isinstance(table, Mapping):
             return [], (), [complaint(name, table, "must be a table")]
     swept, combine, keep = reader.swept(sweep)
-    refined, expected = reader.refined(refine)
+    refined, expected, why = reader.refined(refine)
     problems = reader.problems
     problems += [
         f"{key}: stands in [sweep] and in [refine]; must be in one"
@@ -51,7 +51,9 @@ def read_designs(
         if key in swept
     ]
     designs = [
-        Design(f"refine.{key}", swept | {key: found}, combine, key, expected.get(key))
+        Design(
+            f"refine.{key}", swept | {key: found}, combine, key, expected.get(key), why.get(key, "")
+        )
         for key, found in refined.items()
     ]
     if swept and not refined:
@@ -97,9 +99,11 @@ class _Reader:
             self.problems.append('sweep: names no key; dotted keys are quoted: "journey.speed"')
         return found, combine, tuple(keep)
 
-    def refined(self, table: Mapping[str, Any]) -> tuple[dict[str, Series], dict[str, float]]:
-        """Series of each refined key, and the expected orders."""
-        self._no_settings("refine", table, ("expected",))
+    def refined(
+        self, table: Mapping[str, Any]
+    ) -> tuple[dict[str, Series], dict[str, float], dict[str, str]]:
+        """Series of each refined key, the expected orders, and why it is those or none."""
+        self._no_settings("refine", table, ABOUT)
         found = {}
         for key, value in table.items():
             if "." not in key or (made := self._series("refine", key, value)) is None:
@@ -113,20 +117,28 @@ class _Reader:
                 self._wrong(f"refine.{key}", value, allowed)
                 continue
             found[key] = made
-        expected = table.get("expected", {})
-        if not isinstance(expected, Mapping):
-            self._wrong("refine.expected", expected, "must be a table of orders by key")
-            expected = {}
-        self.problems += [
-            unknown("refine.expected", k, list(table)) for k in expected if k not in table
-        ]
-        orders = {}
-        for key, value in expected.items():
+        orders, why = dict[str, float](), dict[str, str]()
+        for key, value in self._by_key(table, "expected", "orders").items():
             try:
                 orders[key] = float(Limits(above=0.0)(value))
             except UnitError as error:
                 self._wrong(f"refine.expected.{key}", value, str(error))
-        return found, orders
+        for key, value in self._by_key(table, "why", "texts").items():
+            if isinstance(value, str):
+                why[key] = " ".join(value.split())
+            else:
+                self._wrong(f"refine.why.{key}", value, "must be text")
+        return found, orders, why
+
+    def _by_key(self, table: Mapping[str, Any], name: str, what: str) -> Mapping[str, Any]:
+        """A table of the refinements that says something of keys, and of those that it refines."""
+        found = table.get(name, {})
+        if not isinstance(found, Mapping):
+            self._wrong(f"refine.{name}", found, f"must be a table of {what} by key")
+            return {}
+        keys = [key for key in table if "." in key]
+        self.problems += [unknown(f"refine.{name}", k, keys) for k in found if k not in keys]
+        return found
 
     def _samples(self, keys: Mapping[str, Any], combine: str, table: Mapping[str, Any]) -> Any:
         number = self._whole(table, "samples", 64, 2)

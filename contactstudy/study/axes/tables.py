@@ -13,6 +13,7 @@ from contactstudy.compare.statistics import spread
 from contactstudy.plot.text import capital, label, number
 from contactstudy.study.axes.axis import axis_of, title_of
 from contactstudy.study.axes.convergences import convergences
+from contactstudy.study.axes.effects import effects, too_many
 from contactstudy.study.axes.shown import Shown, drawn, shown
 from contactstudy.study.results import StudyResults
 
@@ -46,6 +47,8 @@ def tables(results: StudyResults) -> Iterator[TableData]:
             yield from (_values(design, quantity, free) for quantity in quantities)
         else:
             yield _ends(design, quantities, free)
+            if too_many(quantities[0], free):
+                yield _effects(design, quantities, free)
 
 
 def _refinement(design: str, quantities: list[Shown]) -> TableData:
@@ -67,6 +70,7 @@ def _refinement(design: str, quantities: list[Shown]) -> TableData:
     expected = data.attrs.get("expected_order")
     title = f"Refinement of the {title_of(data.attrs['refined'])}"
     title += f", expected order {expected:g}" if expected else ""
+    title += ", no order expected" if data.attrs.get("why") and not expected else ""
     columns = ["quantity", "run", "finest", "limit", "order", "band ±", "GCI (%)", "verdict"]
     return TableData(design, title, columns, rows, 2)
 
@@ -105,6 +109,21 @@ def _ends(design: str, quantities: list[Shown], free: list[str]) -> TableData:
             rows.append([quantity.title, label(run), *ends])
     columns = ["quantity", "run", "least", "at", "largest", "at"]
     return TableData(design, "Smallest and largest values", columns, rows, 2)
+
+
+def _effects(design: str, quantities: list[Shown], free: list[str]) -> TableData:
+    rows = []
+    for quantity in quantities:
+        for run in quantity.runs:
+            found = effects(quantity, run, free)
+            for key in sorted(free, key=lambda k: found[k].change, reverse=True):
+                names, median = axis_of(quantity.data, key).names, found[key].median
+                low, high = int(np.nanargmin(median)), int(np.nanargmax(median))
+                ends = [_cell(median[low]), names[low], _cell(median[high]), names[high]]
+                rows.append([quantity.title, label(run), title_of(key), *ends])
+    columns = ["quantity", "run", "key", "least median", "at", "largest median", "at"]
+    title = "What each key changes: medians over all values of the others"
+    return TableData(design, title, columns, rows, 3)
 
 
 def _mean(quantity: Shown, run: str, free: list[str]) -> Array:

@@ -233,3 +233,19 @@ def test_positions_over_loads_follow_hertz(study, tmp_path):
     figures = {path.stem for path in (tmp_path / "out/figures").glob("*.pdf")}
     assert "sweep_peak_pressure_largest" in figures
     assert (tmp_path / "out/report.pdf").is_file()
+
+
+def test_a_refinement_of_the_cells_closes_in_on_hertz(study, tmp_path):
+    """Cells of the half-space: the band about the finest approach holds that of Hertz."""
+    cells = '[refine]\n"positions.cell" = ["1 mm", "0.7 mm", "0.5 mm", "0.35 mm"]\n'
+    study.write_text(HERTZ.replace('["0 mm", "1 mm"]', '["0 mm"]') + cells)
+    results = run_study(load_study(study), tmp_path / "out", 1)
+    data = results.designs["refine.positions.cell"].isel(run=0)
+    exact = hertz_contact(67.4e3, contact_modulus(210e9, 0.3), 0.46, 0.3).approach
+    approach = data["approach_largest"].values
+    band = float(data["approach_largest_uncertainty"])
+    print(f"Hertz {1e6 * exact:.4f} um, cells {1e6 * approach}, band {1e6 * band:.4f} um")
+    assert abs(approach[-1] / exact - 1.0) < abs(approach[0] / exact - 1.0) < 0.02
+    assert abs(approach[-1] - exact) <= band < 0.02 * exact
+    assert str(data["approach_largest_verdict"].item())
+    assert (tmp_path / "out/figures/refine_positions_cell_approach_largest.pdf").is_file()

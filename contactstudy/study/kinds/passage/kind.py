@@ -33,6 +33,12 @@ class PassageKind(Kind):
         Quantity("lost_length", "Way without contact (mm)", {}, 1e3),
         Quantity("impulse", "Impulse beyond the static load (N s)"),
         Quantity("from_finest", f"Difference of the {_NAME} from the finest (%)", _PART, 100.0),
+        Quantity(
+            "from_finest",
+            "Difference of the wheel displacement from the finest (%)",
+            {"signal": ("wheel_displacement",), "part": _PART["part"]},
+            100.0,
+        ),
     )
     files = (FIELDS,)
     about = "Wheels run over a track, by several models that are compared."

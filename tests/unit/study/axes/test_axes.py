@@ -11,6 +11,7 @@ import contactstudy as cs
 from contactstudy import cli
 from contactstudy.driver import run_study
 from contactstudy.exceptions import InputError
+from contactstudy.report.axes import parts
 from contactstudy.store import Store
 from contactstudy.study import compute, tasks
 from contactstudy.study.axes import measure
@@ -307,3 +308,22 @@ def test_the_histories_of_positions_are_known():
     assert load_study("manchester", sweep=series).keep == ("approach",)
     with pytest.raises(InputError, match="no run has this history"):
         load_study("manchester", sweep=series | {"keep": ["contact_force"]})
+
+
+def test_what_a_refinement_says_of_its_keys(law, tmp_path):
+    """An expected order, and why there is one or none; gone with a key that is set."""
+    text = '[refine]\n"law.x" = [0.8, 0.4, 0.2]\n"law.scale" = [3, 2, 1]\n'
+    text += 'expected = { "law.x" = 2 }\nwhy = { "law.scale" = "a\\n factor" }\n'
+    path = law(text)
+    x, scale = load_study(path).designs
+    assert (x.expected, x.why, scale.expected, scale.why) == (2.0, "", None, "a factor")
+    results = swept(path, tmp_path / "out")
+    of_x, of_scale = (str(p["blocks"][0]) for p in parts(results))
+    assert "Expected order: 2." in of_x and "No order is expected: a factor." in of_scale
+    (left,) = load_study(path, {"law.x": 1.0}).designs
+    assert left.refined == "law.scale"
+    wrong = text.replace('"law.scale" = "a', '"law.word" = "a').replace("= 2 }", '= "two" }')
+    with pytest.raises(InputError) as caught:
+        load_study(law(wrong))
+    said = " ".join(caught.value.problems)
+    assert "refine.why.law.word: unknown key" in said and "refine.expected.law.x" in said

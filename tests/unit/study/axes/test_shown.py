@@ -98,6 +98,45 @@ def test_figures_and_their_captions(swept, text, said):
     assert files == [f"figures/{d.name}.pdf" for d in made]
 
 
+FOUR = """[sweep]
+"law.x" = [1, 2, 3]
+"law.scale" = [1, 2, 4, 8]
+"law.order" = [1, 2, 3]
+"law.word" = ["a", "b"]
+"""
+
+
+def test_four_keys_have_their_effects(swept):
+    """y = 5 + s x^p: at x = 1 the median of 5 + s over s is 8; the word changes nothing."""
+    results = swept(FOUR)
+    data = results.designs["sweep"]["largest"].sel(run="power")
+    (made,) = (d for d in drawings(results))
+    assert "over 4 keys, one a panel" in made.caption and made.caption.endswith("word 0.")
+    with figure_style():
+        figure = made.draw()
+    panels = [axes for axes in figure.axes if axes.get_visible()]
+    assert [a.get_xlabel() for a in panels] == ["x (m)", "scale", "order", "word"]
+    medians = np.median(data.transpose("law.x", ...).values.reshape(3, -1), axis=1)
+    assert medians[0] == 8.0
+    drawn = next(line for line in panels[0].lines if line.get_label() == "power")
+    np.testing.assert_allclose(drawn.get_ydata(), medians)
+    _ends, table = tables(results)
+    rows = [r for r in table.rows if r[1] == "power"]
+    assert [row[2] for row in rows][-1] == "word" and rows[-1][3] == rows[-1][5]
+    x = next(row for row in rows if row[2] == "x")
+    assert (x[3], x[4], x[6]) == ("8.00", "1 m", "3 m")
+    assert float(x[5]) == pytest.approx(medians[2], rel=5e-3)
+
+
+def test_effects_leave_out_what_failed(swept):
+    results = swept(FOUR, "breaks_at = 2.0")
+    (made,) = drawings(results)
+    assert "left out" in made.caption
+    _, table = tables(results)
+    x = next(row for row in table.rows if row[1] == "power" and row[2] == "x")
+    assert (x[4], x[6]) == ("1 m", "3 m")
+
+
 def test_failed_variants_are_holes_in_the_figures(swept):
     text = '[sweep]\n"law.x" = "1 m to 5 m by 1 m"\n"law.scale" = "1 to 5 by 1"\n'
     results = swept(text, "breaks_at = 2.0")
