@@ -14,7 +14,7 @@ from contactstudy.study.axes.swept import Swept
 from contactstudy.study.loading import load_study
 from contactstudy.study.results import StudyResults
 from contactstudy.study.study import Study
-from contactstudy.study.terminal import TerminalReporter, console, print_check
+from contactstudy.study.terminal import TerminalReporter, check_study, console
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -55,7 +55,7 @@ def check(study: str | Path | Study, values: Mapping[str, Any] | None = None) ->
     InputError
         Listing every problem.
     """
-    print_check(_study(study, values), console(), Quiet())
+    check_study(_study(study, values), Quiet()).print(console())
 
 
 def run(

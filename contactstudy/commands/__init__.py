@@ -1,12 +1,16 @@
 """The commands; each imports what it computes with when it is called."""
 
+from typing import Literal
+
 from cyclopts import App
 
 from contactstudy.commands.advising import advise
 from contactstudy.commands.asking import check, status
 from contactstudy.commands.exporting import export
 from contactstudy.commands.listing import cache, keys, studies
+from contactstudy.commands.looking import diff, plot
 from contactstudy.commands.running import reproduce, run
+from contactstudy.commands.starting import new
 from contactstudy.commands.verifying import verify
 
 
@@ -21,7 +25,32 @@ app = App(
     name="contactstudy",
     help="How wrong the simple wheel-rail contact model is: point against surface contact.",
     version=_version,
+    help_epilogue=(
+        "Exit status: 0 done; 1 a run broke down, a check fails, or results differ; 2 wrong input "
+        "or nowhere to write; 130 interrupted."
+    ),
     help_format="plaintext",  # Markdown takes as long to load as all the rest
 )
-for command in (run, check, reproduce, advise, verify, export, status, studies, keys, cache):
+_COMMANDS = (
+    new,
+    check,
+    run,
+    reproduce,
+    advise,
+    plot,
+    diff,
+    status,
+    verify,
+    export,
+    studies,
+    keys,
+    cache,
+)
+for command in _COMMANDS:
     app.command(command)
+
+
+@app.command
+def completion(shell: Literal["bash", "zsh", "fish"]) -> None:
+    """Print a script with which a shell completes: eval "$(contactstudy completion bash)"."""
+    print(app.generate_completion(prog_name=app.name[0], shell=shell))

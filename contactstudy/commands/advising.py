@@ -7,7 +7,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from contactstudy.commands.options import Out, Overrides, Workers
+from contactstudy.commands.options import TALKING, Out, Overrides, Telling, Workers
 
 
 def advise(
@@ -18,6 +18,7 @@ def advise(
     measure: Annotated[str, Parameter(help="Of what: dynamic or total force.")] = "dynamic",
     overrides: Overrides = (),
     workers: Workers = 2,
+    telling: Telling = TALKING,
 ) -> None:
     """Find the cheapest point scheme that keeps an error bound; shown on one sample.
 
@@ -32,9 +33,8 @@ def advise(
     from contactstudy.advice.advise import read_bound
     from contactstudy.advice.terminal import print_advice
     from contactstudy.study.loading import load_study
-    from contactstudy.study.terminal import TerminalReporter, console
 
     loaded = load_study(study, overrides)
-    with TerminalReporter(console(stderr=True)) as reporter:
+    with telling.reporter() as reporter:
         found = find(loaded, read_bound(bound), out, measure, workers, reporter)
-    print_advice(found, console())
+    print_advice(found, telling.console())

@@ -4,11 +4,17 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from contactstudy.commands.options import Overrides, Quick, Sweep
+from contactstudy.commands.options import TALKING, Json, Overrides, Quick, Sweep, Telling
 
 
 def check(
-    study: str, *, overrides: Overrides = (), sweep: Sweep = (), quick: Quick = False
+    study: str,
+    *,
+    overrides: Overrides = (),
+    sweep: Sweep = (),
+    quick: Quick = False,
+    json: Json = False,
+    telling: Telling = TALKING,
 ) -> None:
     """Validate a study; print resolved values, sizes and the expected time. Runs nothing.
 
@@ -18,11 +24,15 @@ def check(
         A TOML file, or the name of a shipped study.
     """
     from contactstudy.study.loading import load_study
-    from contactstudy.study.terminal import TerminalReporter, console, print_check
+    from contactstudy.study.terminal import check_study
 
     loaded = load_study(study, overrides, sweep=sweep, quick=quick)
-    with TerminalReporter(console(stderr=True)) as reporter:
-        print_check(loaded, console(), reporter, quick)
+    with telling.reporter() as reporter:
+        checked = check_study(loaded, reporter, quick)
+    if json:
+        print(checked.json)
+    else:
+        checked.print(telling.console())
 
 
 def status(folder: Path) -> None:

@@ -1,9 +1,19 @@
 """Options that several commands have."""
 
+from __future__ import annotations
+
+from contextlib import AbstractContextManager, nullcontext
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
+
+from contactstudy.exceptions import InputError
+from contactstudy.reporter import Quiet, Reporter
+
+if TYPE_CHECKING:
+    from rich.console import Console
 
 Overrides = Annotated[
     tuple[str, ...],
@@ -42,3 +52,38 @@ Overwrite = Annotated[
     bool, Parameter(negative="", help="Replace the results of another study in the folder.")
 ]
 Out = Annotated[Path, Parameter(name=["--out", "-o"])]
+
+
+Json = Annotated[
+    bool, Parameter(name="--json", negative="", help="Print JSON instead of text and tables.")
+]
+
+
+@Parameter(name="*")
+@dataclass(frozen=True)
+class Telling:
+    """How much is said on the way; errors always are."""
+
+    quiet: Annotated[bool, Parameter(name=["--quiet", "-q"], negative="")] = False
+    "Print nothing but errors."
+    verbose: Annotated[bool, Parameter(name=["--verbose", "-v"], negative="")] = False
+    "Print a line, with its time, as each run and stage begins and ends; no progress bars."
+
+    def reporter(self) -> AbstractContextManager[Reporter]:
+        """Who says it, on the error stream."""
+        from contactstudy.study.terminal import TerminalReporter, console
+
+        if self.quiet and self.verbose:
+            raise InputError("--quiet, --verbose: only one of them")
+        if self.quiet:
+            return nullcontext(Quiet())
+        return TerminalReporter(console(stderr=True), self.verbose)
+
+    def console(self) -> Console:
+        """Where results are shown."""
+        from contactstudy.study.terminal import console
+
+        return console(quiet=self.quiet)
+
+
+TALKING = Telling()

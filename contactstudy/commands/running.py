@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
 from contactstudy.commands.options import (
+    TALKING,
+    Json,
     Out,
     Overrides,
     Overwrite,
     Quick,
     Scheduler,
     Sweep,
+    Telling,
     Workers,
 )
 from contactstudy.exceptions import ContactStudyError, InputError
@@ -33,6 +37,8 @@ def run(
     workers: Workers = 2,
     scheduler: Scheduler = "",
     overwrite: Overwrite = False,
+    json: Json = False,
+    telling: Telling = TALKING,
 ) -> None:
     """Run a study; write result.nc, metrics.json, figures/ and report.pdf.
 
@@ -46,7 +52,7 @@ def run(
     from contactstudy.study.loading import load_study
 
     loaded = load_study(study, overrides, sweep=sweep, quick=quick)
-    _run(loaded, out, workers, scheduler, quick, overwrite)
+    _run(loaded, out, Ways(workers, scheduler, quick, overwrite, json, telling))
 
 
 def reproduce(
@@ -60,6 +66,8 @@ def reproduce(
     workers: Workers = 2,
     scheduler: Scheduler = "",
     overwrite: Overwrite = False,
+    json: Json = False,
+    telling: Telling = TALKING,
 ) -> None:
     """Run the studies that make the paper's figures, by default the main comparison.
 
@@ -80,19 +88,34 @@ def reproduce(
     folders = [out if study.name == main_study else out / study.name for study in loaded]
     _each_its_own(loaded, folders)
     for study, folder in zip(loaded, folders, strict=True):
-        _run(study, folder, workers, scheduler, quick, overwrite)
+        _run(study, folder, Ways(workers, scheduler, quick, overwrite, json, telling))
 
 
-def _run(
-    study: Study, out: Path, workers: int, scheduler: str, quick: bool, overwrite: bool
-) -> None:
+@dataclass(frozen=True)
+class Ways:
+    """How a study is run, and what is said of it."""
+
+    workers: int
+    scheduler: str
+    quick: bool
+    overwrite: bool
+    json: bool
+    telling: Telling
+
+
+def _run(study: Study, out: Path, ways: Ways) -> None:
     from contactstudy.driver import run_study
     from contactstudy.plot.text import counted
-    from contactstudy.study.terminal import TerminalReporter, console, print_results
+    from contactstudy.study.terminal import print_results, results_json
 
-    with TerminalReporter(console(stderr=True)) as reporter:
-        results = run_study(study, out, workers, reporter, quick, scheduler, overwrite)
-    print_results(results, out, console())
+    with ways.telling.reporter() as reporter:
+        results = run_study(
+            study, out, ways.workers, reporter, ways.quick, ways.scheduler, ways.overwrite
+        )
+    if ways.json:
+        print(results_json(results, out))
+    else:
+        print_results(results, out, ways.telling.console())
     if failures := results.failures:
         told = [f"{title}: {reason}" for title, reason in failures.items()]
         raise ContactStudyError("\n".join([f"{counted(len(told), 'variant')} failed", *told]))

@@ -7,7 +7,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from contactstudy.commands.options import Out
+from contactstudy.commands.options import TALKING, Out, Telling
 from contactstudy.exceptions import ContactStudyError
 
 
@@ -19,6 +19,7 @@ def verify(
         int, Parameter(name=["--workers", "-j"], help="Cases at the same time.")
     ] = 2,
     listing: Annotated[bool, Parameter(name="--list", negative="")] = False,
+    telling: Telling = TALKING,
 ) -> None:
     """Run the named verification cases; write verification.pdf and verification.json.
 
@@ -41,16 +42,16 @@ def verify(
             print(f"{case.name:<{width}}  {case.about}".rstrip())
         return
     from contactstudy.report.verification import write_verification
-    from contactstudy.study.terminal import TerminalReporter, console
     from contactstudy.verification.outcome import write_json
     from contactstudy.verification.runner import about, complaints, run_cases
 
-    with TerminalReporter(console(stderr=True)) as reporter:
+    with telling.reporter() as reporter:
         outcomes = run_cases(cases, out, quick, reporter, workers)
         with reporter.stage("typesetting"):
             write_json(outcomes, about(), out)
             pdf = write_verification(outcomes, about(), out)
-    print(pdf)
+    if not telling.quiet:
+        print(pdf)
     if problems := complaints(outcomes):
         raise ContactStudyError(
             "\n".join([f"verification: {len(problems)} of the checks fail", *problems])

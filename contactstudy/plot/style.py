@@ -67,6 +67,7 @@ _RC: Any = {
     "legend.handlelength": 2.8,
     "figure.dpi": 100,
     "pdf.fonttype": 42,
+    "svg.hashsalt": "contactstudy",  # equal figures give equal bytes
     "axes.unicode_minus": True,
     "text.parse_math": False,  # what users write is no markup; our own formulas ask for it
     "path.simplify": True,

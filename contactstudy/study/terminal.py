@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import contextlib
+import json
+import time
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
 from typing import Any
@@ -24,9 +27,10 @@ from rich.text import Text
 
 from contactstudy.reporter import Reporter
 from contactstudy.study.axes.swept import Swept
-from contactstudy.study.axes.terminal import check_swept, summary
+from contactstudy.study.axes.terminal import check_swept, expected_seconds, summary
 from contactstudy.study.kind import find_kind
 from contactstudy.study.loading import base_of, load_companions
+from contactstudy.study.plan import plan_study
 from contactstudy.study.results import StudyResults
 from contactstudy.study.study import Study
 from contactstudy.texts import visible
@@ -34,16 +38,20 @@ from contactstudy.texts import visible
 _LONG = 12  # values of a list
 
 
-def console(stderr: bool = False) -> Console:
+def console(stderr: bool = False, quiet: bool = False) -> Console:
     """What commands print on: texts are shown as they are, and nothing in them is markup."""
-    return Console(stderr=stderr, markup=False, emoji=False)
+    return Console(stderr=stderr, quiet=quiet, markup=False, emoji=False)
 
 
 class TerminalReporter:
-    """A `Reporter` with one bar a run and the time left; only notes when not on a terminal."""
+    """A `Reporter` with one bar a run and the time left; only notes when not on a terminal.
 
-    def __init__(self, console: Console) -> None:
-        self._console = console
+    With `lines` it prints a line instead as each run and stage begins and ends.
+    """
+
+    def __init__(self, console: Console, lines: bool = False) -> None:
+        self._console, self._lines = console, lines
+        self._began: dict[str, float] = {}
         self._tasks: dict[str, TaskID] = {}
         self._bars = Progress(
             SpinnerColumn(),
@@ -54,7 +62,7 @@ class TerminalReporter:
             TextColumn("left"),
             TimeRemainingColumn(),
             console=console,
-            disable=not console.is_terminal,
+            disable=lines or not console.is_terminal,
         )
 
     def __enter__(self) -> TerminalReporter:
@@ -75,6 +83,8 @@ class TerminalReporter:
 
     def begin(self, name: str, total: int) -> None:
         """Add a bar that waits for its first step."""
+        self._line(f"{name}: begins")
+        self._began[name] = time.monotonic()
         self._tasks[name] = self._bars.add_task(name, total=None, start=False)
 
     def progress(self, name: str, done: int, total: int) -> None:
@@ -86,6 +96,8 @@ class TerminalReporter:
 
     def end(self, name: str, ok: bool) -> None:
         """Fill a bar, or mark it as failed."""
+        took = time.monotonic() - self._began.pop(name, time.monotonic())
+        self._line(f"{name}: {'done' if ok else 'failed'} after {took:.1f} s")
         task = self._tasks[name]
         if ok:
             self._bars.update(task, completed=1, total=1)
@@ -96,11 +108,16 @@ class TerminalReporter:
     @contextlib.contextmanager
     def stage(self, text: str) -> Iterator[None]:
         """Show a stage without steps while it lasts."""
+        self._line(text)
         task = self._bars.add_task(text, total=None)
         try:
             yield
         finally:
             self._bars.update(task, completed=1, total=1)
+
+    def _line(self, text: str) -> None:
+        if self._lines:
+            self.note(text)
 
 
 def print_results(results: StudyResults, out_dir: Path, console: Console) -> None:
@@ -111,15 +128,57 @@ def print_results(results: StudyResults, out_dir: Path, console: Console) -> Non
     console.print(visible(f"results, figures and report: {out_dir}"), soft_wrap=True)
 
 
-def print_check(study: Study, console: Console, reporter: Reporter, quick: bool = False) -> None:
-    """Print the resolved values of a study and what it will need; runs nothing.
+def results_json(results: StudyResults, out_dir: Path) -> str:
+    """The same as JSON: where it is, metrics, and what failed."""
+    about = {name: getattr(results, name) for name in ("name", "title", "kind", "reference")}
+    told = {"metrics": results.metrics, "failures": results.failures}
+    return _json(about | {"out": str(out_dir)} | told)
+
+
+@dataclass(frozen=True)
+class Checked:
+    """A study that can be run: what is worth knowing of it, and texts and tables of its needs."""
+
+    study: Study
+    warnings: tuple[str, ...]
+    needs: tuple[str | Table, ...]
+
+    def print(self, console: Console) -> None:
+        """Print resolved values and needs."""
+        study = self.study
+        console.print(Text(study.title, "bold"), f"({study.name})")
+        if study.description:
+            console.print(" ".join(study.description.split()))
+        for warning in self.warnings:
+            console.print(visible(f"warning: {warning}"), soft_wrap=True)
+        units = study.units()
+        values = Table("key", "value", "SI unit", show_header=True)
+        for key, value in _flat(study.config()):
+            values.add_row(key, _text(value), units.get(key, ""))
+        console.print(values)
+        for item in self.needs:
+            console.print(item, soft_wrap=isinstance(item, str))
+
+    @property
+    def json(self) -> str:
+        """The same as JSON; each table as a list of its rows."""
+        study = self.study
+        about = {name: getattr(study, name) for name in ("name", "title", "description", "kind")}
+        values = {"config": study.config(), "units": study.units()}
+        seconds = expected_seconds(plan_study(study, Path()))
+        needs = [item if isinstance(item, str) else _rows(item) for item in self.needs]
+        told = {"warnings": self.warnings, "expected_seconds": seconds, "needs": needs}
+        return _json(about | values | told)
+
+
+def check_study(study: Study, reporter: Reporter, quick: bool = False) -> Checked:
+    """Refuse a study that cannot be run; what it will need. Runs nothing.
 
     Raises
     ------
     InputError
         When an input file or a companion's study file cannot be used.
     """
-    # whatever may be refused comes before the first line
     companions = load_companions(study, quick)
     theirs = [one for c in companions for one in load_companions(c, quick, last=True)]
     studies = [base_of(one) for one in (study, *companions, *theirs)]
@@ -127,18 +186,17 @@ def print_check(study: Study, console: Console, reporter: Reporter, quick: bool 
     needs = [*find_kind(study.kind).check(studies[0], studies[1:], reporter)]
     if isinstance(study, Swept):
         needs = ["the study as its file has it:", *needs, *check_swept(study)]
-    console.print(Text(study.title, "bold"), f"({study.name})")
-    if study.description:
-        console.print(" ".join(study.description.split()))
-    for warning in (*inputs[0].warnings, *study.remarks):
-        console.print(visible(f"warning: {warning}"), soft_wrap=True)
-    units = study.units()
-    values = Table("key", "value", "SI unit", show_header=True)
-    for key, value in _flat(study.config()):
-        values.add_row(key, _text(value), units.get(key, ""))
-    console.print(values)
-    for item in needs:
-        console.print(item, soft_wrap=isinstance(item, str))
+    return Checked(study, (*inputs[0].warnings, *study.remarks), tuple(needs))
+
+
+def _json(told: Mapping[str, Any]) -> str:
+    return json.dumps(told, indent=2, ensure_ascii=False, default=list)
+
+
+def _rows(table: Table) -> list[dict[str, str]]:
+    heads = [str(column.header) for column in table.columns]
+    cells = zip(*(map(str, column.cells) for column in table.columns), strict=True)
+    return [dict(zip(heads, row, strict=True)) for row in cells]
 
 
 def _flat(tables: Mapping[str, Any], path: str = "") -> Iterator[tuple[str, Any]]:

@@ -1,0 +1,215 @@
+"""Signals that a user chooses from results: drawn over an abscissa, or as rows of a table."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from matplotlib.figure import Figure
+
+from contactstudy.exceptions import InputError
+from contactstudy.figures.signals import SIGNALS
+from contactstudy.files import writing
+from contactstudy.plot.style import PNG_DPI, figure_legend, figure_style, new_figure, run_styles
+from contactstudy.study.results import StudyResults
+from contactstudy.validation import did_you_mean
+
+_UNDATED = {
+    "png": {"Software": None},
+    "svg": {"Date": None},
+    "pdf": {"CreationDate": None, "Creator": None, "Producer": None},
+}
+_SHOWN = {signal.name: signal for signal in SIGNALS}
+
+
+@dataclass(frozen=True)
+class Trace:
+    """A signal of a run over one abscissa; of several wheels or stations one.
+
+    `labels` tells these apart: dimension -> coordinate.
+    """
+
+    run: str
+    signal: str
+    labels: dict[str, Any]
+    x: np.ndarray
+    values: np.ndarray
+    attrs: dict[str, Any]
+    abscissa: str
+    abscissa_unit: str
+
+    @property
+    def label(self) -> str:
+        """Of the curve."""
+        return ", ".join([self.run, *(f"{d} {v:g}" for d, v in self.labels.items())])
+
+
+def traces(
+    results: StudyResults, signals: Sequence[str], runs: Sequence[str], over: str = ""
+) -> list[Trace]:
+    """Choose signals of runs (of all without `runs`).
+
+    `over` is a coordinate; without it the position if the run has one, else that of the last
+    dimension.
+
+    Raises
+    ------
+    InputError
+        Naming what there is instead.
+    """
+    known: dict[str, xr.Dataset] = {**results.runs, **results.groups}
+    chosen = list(runs) or list(results.runs) or list(results.groups)
+    problems = [
+        f"run {name}: not in these results{did_you_mean(name, known)}; there are {', '.join(known)}"
+        for name in chosen
+        if name not in known
+    ]
+    found = list[Trace]()
+    for signal in signals:
+        having = [name for name in chosen if name in known and _drawable(known[name], signal)]
+        if not having and not problems:
+            there = dict.fromkeys(
+                v for n in chosen for v in map(str, known[n].data_vars) if _drawable(known[n], v)
+            )
+            problems.append(
+                f"signal {signal}: not in {', '.join(chosen)}{did_you_mean(signal, there)}; "
+                f"there are {', '.join(there)}"
+            )
+        for name in having:
+            found += _of_run(name, known[name], signal, over)
+    if problems:
+        raise InputError(problems)
+    return found
+
+
+def _drawable(data: xr.Dataset, signal: str) -> bool:
+    """Whether it is numbers over at least one dimension with a coordinate, the last one."""
+    if signal not in data.data_vars or not data[signal].dims:
+        return False
+    last, numbers = data[signal].dims[-1], np.issubdtype(data[signal].dtype, np.number)
+    return bool(numbers and _abscissae(data[signal], last))
+
+
+def _abscissae(values: xr.DataArray, last: Any) -> list[str]:
+    """Coordinates along the last dimension, the position first."""
+    names = [
+        str(n) for n, c in values.coords.items() if last in c.dims and set(c.dims) <= {*values.dims}
+    ]
+    return sorted(names, key=lambda name: (name != "position", name != last))
+
+
+def _of_run(run: str, data: xr.Dataset, signal: str, over: str) -> Iterator[Trace]:
+    values = data[signal]
+    last = values.dims[-1]
+    names = _abscissae(values, last)
+    if over and over not in names:
+        raise InputError(f"--over {over}: {signal} of {run} is over {', '.join(names)}")
+    name = over or names[0]
+    others = values.dims[:-1]
+    for place in np.ndindex(*(values.sizes[d] for d in others)):
+        one = values.isel(dict(zip(others, place, strict=True)))
+        labels = {
+            str(d): one.coords[d].item() if d in one.coords else k + 1
+            for d, k in zip(others, place, strict=True)
+        }
+        x = one.coords[name]
+        unit = x.attrs.get("units", "")
+        yield Trace(run, signal, labels, x.values, one.values, values.attrs, name, unit)
+
+
+def within(found: Sequence[Trace], low: float, high: float) -> list[Trace]:
+    """The part of each trace with ``low <= x <= high``, in SI; those without any are left out.
+
+    Raises
+    ------
+    InputError
+        If nothing is left.
+    """
+    cut = []
+    for t in found:
+        inside = (t.x >= low) & (t.x <= high)
+        if inside.any():
+            shorter = t.x[inside], t.values[inside]
+            cut.append(
+                Trace(t.run, t.signal, t.labels, *shorter, t.attrs, t.abscissa, t.abscissa_unit)
+            )
+    if not cut:
+        spans = [(float(t.x.min()), float(t.x.max()), t.abscissa_unit) for t in found]
+        first = min(s[0] for s in spans)
+        last = max(s[1] for s in spans)
+        raise InputError(
+            f"--x {low:g}..{high:g}: the signals reach from {first:g} to {last:g} {spans[0][2]}"
+        )
+    return cut
+
+
+def write_traces(found: Sequence[Trace], reference: str | None, path: Path) -> None:
+    """Write a picture, or with the ending .csv a table in SI units.
+
+    Raises
+    ------
+    InputError
+        For another ending.
+    """
+    if path.suffix == ".csv":
+        with writing(path) as unfinished:
+            unfinished.write(_table(found).encode("utf-8"))
+        return
+    if path.suffix[1:] not in _UNDATED:
+        raise InputError(f"--out {path}: must end in .csv, .pdf, .png or .svg")
+    with figure_style():
+        figure = _figure(found, reference)
+        with writing(path) as unfinished:
+            kind = path.suffix[1:]
+            figure.savefig(unfinished, format=kind, dpi=PNG_DPI, metadata=_UNDATED[kind])
+
+
+def _figure(found: Sequence[Trace], reference: str | None) -> Figure:
+    signals = list(dict.fromkeys(t.signal for t in found))
+    runs = list(dict.fromkeys(t.label for t in found))
+    styles = run_styles(runs, reference)
+    figure = new_figure(1.0 + 2.2 * len(signals))
+    panels = figure.subplots(len(signals), 1, squeeze=False, sharex=True)[:, 0]
+    for axes, signal in zip(panels, signals, strict=True):
+        own = [t for t in found if t.signal == signal]
+        known = _SHOWN.get(signal)
+        unit = known.unit if known else own[0].attrs.get("units", "")
+        # the reference is drawn last, on top
+        for t in sorted(own, key=lambda t: t.run == reference):
+            values = t.values * known.scale if known else t.values
+            axes.plot(t.x, values, label=t.label, **styles[t.label].line)
+        axes.set_title(own[0].attrs.get("long_name", signal.replace("_", " ")), loc="left")
+        axes.set_ylabel(" ".join([known.axis if known else "", f"({unit})" if unit else ""]))
+    abscissa = found[0].abscissa.replace("_", " ").capitalize()
+    panels[-1].set_xlabel(f"{abscissa} ({found[0].abscissa_unit})")
+    figure_legend(figure, panels[0])
+    return figure
+
+
+def _table(found: Sequence[Trace]) -> str:
+    """A row for each run and abscissa, a column for each signal."""
+    signals = list(dict.fromkeys(t.signal for t in found))
+    dims = list(dict.fromkeys(d for t in found for d in t.labels))
+    units = {t.signal: t.attrs.get("units", "") for t in found}
+    groups: dict[tuple[Any, ...], dict[str, Trace]] = {}
+    for t in found:
+        groups.setdefault((t.run, *(t.labels.get(d, "") for d in dims)), {})[t.signal] = t
+    out = io.StringIO()
+    rows = csv.writer(out, lineterminator="\n")
+    first = found[0]
+    head = [f"{first.abscissa} ({first.abscissa_unit})", *(f"{s} ({units[s]})" for s in signals)]
+    rows.writerow(["run", *dims, *head])
+    for key, own in groups.items():
+        x = next(iter(own.values())).x
+        columns = [
+            [repr(float(v)) for v in own[s].values] if s in own else [""] * len(x) for s in signals
+        ]
+        for place, *values in zip(x, *columns, strict=True):
+            rows.writerow([*key, repr(float(place)), *values])
+    return out.getvalue()

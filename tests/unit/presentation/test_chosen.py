@@ -1,0 +1,116 @@
+"""Signals that a user chooses: the numbers of the results, and files that can be read."""
+
+import csv
+
+import numpy as np
+import pytest
+import xarray as xr
+from matplotlib.image import imread
+
+from contactstudy import cli
+from contactstudy.exceptions import InputError
+from contactstudy.figures.chosen import traces, within, write_traces
+from contactstudy.study.results import StudyResults, write_results
+
+T = np.linspace(0.0, 1.0, 11)
+
+
+def a_run(factor):
+    return xr.Dataset(
+        {
+            "contact_force": ("time", factor * T, {"units": "N", "long_name": "contact force"}),
+            "station_displacement": (("station", "time"), np.outer([1, 2], T), {"units": "m"}),
+            "text": ("time", [str(t) for t in T]),
+            "pressure": (("instant", "point"), np.ones((2, 3)), {"units": "Pa"}),
+        },
+        {
+            "time": ("time", T, {"units": "s"}),
+            "position": ("time", 10.0 + 50.0 * T, {"units": "m"}),
+            "station": [12.0, 18.0],
+        },
+    )
+
+
+@pytest.fixture
+def results():
+    return StudyResults(
+        name="mine", title="", description="", config={}, units={}, reference="surface",
+        runs={"surface": a_run(1.0), "point": a_run(2.0)}, metrics={},
+    )  # fmt: skip
+
+
+def test_numbers_are_those_of_the_results(results):
+    surface, point = traces(results, ["contact_force"], [])
+    assert (surface.abscissa, surface.abscissa_unit) == ("position", "m")
+    np.testing.assert_array_equal(point.x, 10.0 + 50.0 * T)
+    np.testing.assert_array_equal(point.values, 2.0 * T)
+    first, second = traces(results, ["station_displacement"], ["point"], over="time")
+    assert (first.label, second.label) == ("point, station 12", "point, station 18")
+    np.testing.assert_array_equal(second.values, 2.0 * T)
+    np.testing.assert_array_equal(second.x, T)
+
+
+def test_a_part_is_cut_out(results):
+    for trace in within(traces(results, ["contact_force"], []), 20.0, 30.0):
+        np.testing.assert_allclose(trace.x, [20.0, 25.0, 30.0])
+    with pytest.raises(InputError, match="reach from 10 to 60 m"):
+        within(traces(results, ["contact_force"], []), 70.0, 80.0)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ((["contact_forc"], []), "did you mean 'contact_force'"),
+        ((["contact_force"], ["points"]), "did you mean 'point'"),
+        ((["text"], []), "signal text: not in surface, point"),
+        ((["pressure"], []), "there are contact_force, station_displacement"),
+        ((["contact_force"], [], "angle"), "is over position, time"),
+    ],
+)
+def test_what_is_not_there_is_named(results, arguments, message):
+    with pytest.raises(InputError, match=message):
+        traces(results, *arguments)
+
+
+def test_a_table_holds_every_number(results, tmp_path):
+    found = traces(results, ["contact_force", "station_displacement"], [])
+    write_traces(found, "surface", tmp_path / "a.csv")
+    with (tmp_path / "a.csv").open() as lines:
+        rows = list(csv.DictReader(lines))
+    assert list(rows[0]) == [
+        "run", "station", "position (m)", "contact_force (N)", "station_displacement (m)",
+    ]  # fmt: skip
+    forces = [r for r in rows if r["run"] == "point" and r["station"] == ""]
+    assert [float(r["contact_force (N)"]) for r in forces] == list(2.0 * T)
+    at = [r for r in rows if r["run"] == "point" and r["station"] == "18.0"]
+    assert [float(r["station_displacement (m)"]) for r in at] == list(2.0 * T)
+    assert [float(r["position (m)"]) for r in at] == list(10.0 + 50.0 * T)
+
+
+@pytest.mark.parametrize("ending", ["png", "pdf", "svg", "csv"])
+def test_the_command_writes_equal_files_twice(results, tmp_path, ending):
+    write_results(results, tmp_path)
+    files = [tmp_path / f"{k}.{ending}" for k in range(2)]
+    for file in files:
+        arguments = ["--signal", "contact_force,station_displacement", "--x", "2000 cm..30"]
+        assert cli.main(["plot", str(tmp_path), *arguments, "--out", str(file)]) == 0
+    assert files[0].read_bytes() == files[1].read_bytes()
+    if ending == "png":
+        assert imread(files[0]).ndim == 3
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["--out", "a.jpg"], "must end in .csv, .pdf, .png or .svg"),
+        (["--out", "a.png", "--x", "10"], "FROM..TO"),
+        (["--out", "a.png", "--x", "20..10"], "smaller to a larger"),
+        (["--out", "a.png", "--x", "10 kg..20 kg"], "wrong unit 'kg'"),
+    ],
+)
+def test_wrong_options_are_one_message(results, tmp_path, capfd, monkeypatch, arguments, message):
+    write_results(results, tmp_path)
+    monkeypatch.chdir(tmp_path)
+    assert cli.main(["plot", ".", "--signal", "contact_force", *arguments]) == 2
+    assert message in capfd.readouterr().err
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["metrics.json", "result.nc"]
