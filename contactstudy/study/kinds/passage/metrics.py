@@ -14,6 +14,7 @@
         softer {k_r: part of the run's, relative_l2_dynamic} with ``compare.softer``,
         third_octave {nominal centre in Hz: level less the reference's in dB}, of bands in which
         the reference has content
+    comfort:      of runs with car bodies, see `comfort_of`
     measured:     with ``[measured]``, see `held_against`
     rungs.<name>: with ``compare.rungs``, the run ``above`` and the same norms against it
 
@@ -39,6 +40,7 @@ from contactstudy.arrays import Array
 from contactstudy.compare import norms
 from contactstudy.compare.bands import level_differences
 from contactstudy.compare.signals import WITHOUT_STATIC, at_rest, position, speed
+from contactstudy.study.kinds.passage.comfort import comfort_of
 from contactstudy.study.kinds.passage.held_against import held_against
 from contactstudy.study.kinds.passage.schema import Study
 from contactstudy.study.kinds.passage.twins import SIGNALS, SMOOTH, SOFTER
@@ -62,6 +64,8 @@ def metrics(
     made = study_metrics(runs, costs, study.reference, compare_from)
     if study.rungs:
         made["rungs"] = rungs(runs, compare_from)
+    if found := comfort_of(runs):
+        made["comfort"] = found
     if study.measured.used and runs:
         made["measured"] = held_against(study.measured, runs)
     return made
