@@ -51,7 +51,7 @@ def _draw(results: StudyResults, record: xr.Dataset, found: dict[str, dict[str, 
         channel = record[name]
         unit, factor = _SHOWN.get(channel.attrs["units"], (channel.attrs["units"], 1.0))
         time = record["record_time"].values + found[first]["shift"]
-        axes.plot(time, factor * channel.values, color=GREY, lw=1.2, label="measured")
+        axes.plot(time, factor * channel.values, color=GREY, lw=0.9, label="measured")
         for run, one in found.items():
             data = results.runs[run]
             values = at_station(data, channel.attrs["signal"], channel.attrs.get("at"))

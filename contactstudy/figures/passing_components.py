@@ -70,9 +70,12 @@ def passing(run: xr.Dataset, bay: float) -> Passing | None:
 
 
 def all_passing(results: StudyResults) -> dict[str, Passing]:
-    """Components of each run of a smooth study with discrete supports; empty for any other."""
-    bay = spacing(results)
-    if bay is None or not is_smooth(results):
+    """Components of each run of a smooth study with discrete supports; empty for any other.
+
+    On a bridge the bays differ, and the wheels come from the ground and leave to it.
+    """
+    bay, on_bridge = spacing(results), results.config.get("track", {}).get("structure") == "bridge"
+    if bay is None or on_bridge or not is_smooth(results):
         return {}
     found = {
         name: passing(run, bay)

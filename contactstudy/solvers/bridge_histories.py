@@ -6,12 +6,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactstudy.arrays import Array
+from contactstudy.arrays import Array, IntArray
 from contactstudy.dynamics.rows import row_values
 from contactstudy.dynamics.stepper import State
 from contactstudy.solvers.observers import Watch
 from contactstudy.solvers.passage import Passage
-from contactstudy.track.space_beam import RX, Axis, displacement
+from contactstudy.track.frame import Chain
+from contactstudy.track.space_beam import N_DOFS, RX, RY, Axis, displacement
 from contactstudy.track.structure import StructureTrack
 
 if TYPE_CHECKING:
@@ -24,6 +25,7 @@ _VARIABLES: dict[str, tuple[str, str]] = {
     "deck_lateral": ("m", "lateral displacement of the deck's axis at the station"),
     "deck_lateral_acceleration": ("m/s^2", "lateral acceleration of the deck's axis there"),
     "deck_roll": ("rad", "roll of the deck at the station"),
+    "deck_strain": ("1", "strain of the deck along the track at the gauge's depth, in tension"),
     "bearing_force": ("N", "force of all bearings of a support, positive in compression"),
 }
 
@@ -31,7 +33,8 @@ _VARIABLES: dict[str, tuple[str, str]] = {
 class BridgeHistories(Watch):
     """Records decks at the journey's stations, and the vertical force on each support.
 
-    The dataset gets `deck_displacement` and `deck_acceleration` (station, time), in space also
+    The dataset gets `deck_displacement`, `deck_acceleration` and `deck_strain` (station, time), of
+    bending in the vertical plane at the depth of the bridge's gauges; in space also
     `deck_lateral`, `deck_lateral_acceleration` and `deck_roll`; NaN where a station lies on an
     approach. `bearing_force` (support, time) is that of both decks on a pier, without dead load.
     """
@@ -53,6 +56,11 @@ class BridgeHistories(Watch):
             ]
             for name, row in axes
         }
+        self._rows["deck_strain"] = [
+            _strain_row(track, track.nodes.decks[deck], float(x))
+            for x, deck in zip(stations, decks, strict=True)
+            if deck is not None
+        ]
         names = [*self._rows, *(_ACCELERATIONS[n] for n in self._rows if n in _ACCELERATIONS)]
         self._kept = {name: np.empty((self._steps, len(self._there))) for name in names}
         self._supports, self._spring, self._damper = track.bearing_forces
@@ -94,6 +102,20 @@ _ACCELERATIONS = {
 
 def _row(axis: Axis) -> Array:
     return displacement(axis, (0.0, 0.0, 0.0))
+
+
+def _strain_row(track: StructureTrack, deck: Chain, x: float) -> tuple[IntArray, Array]:
+    """Row of the strain at the gauge's depth e: e w'' = -e d(r_y)/dX.
+
+    The turn is a parabola within an element, so that its central difference is exact; on a node it
+    is the mean of both elements.
+    """
+    turn, half = np.eye(N_DOFS)[RY], 1e-3
+    (before, less), (behind, more) = (
+        track.rows_of(deck, np.array([at]), turn) for at in (x - half, x + half)
+    )
+    factor = track.bridge.gauge_depth / (2.0 * half)
+    return np.hstack([before, behind]), factor * np.hstack([less, -more])
 
 
 def _variable(dim: str, values: Array, name: str) -> xr.Variable:

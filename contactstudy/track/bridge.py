@@ -136,6 +136,9 @@ class Bridge(Parameters):
     track_height: Annotated[q.Position, "rails' feet above the deck's centroid"] = 1.5
     rail_distance: Annotated[q.Length, "between the two rails' axes"] = 1.5
     bearing_distance: Annotated[q.Length, "between the two bearings of a support"] = 4.5
+    gauge_depth: Annotated[
+        q.Position, "below the deck's centroid, where its strain along the track is recorded"
+    ] = 1.0
     bearing_depth: Annotated[q.Position, "bearings below the deck's centroid"] = 2.0
     bearing_stiffness: Annotated[q.Stiffness, "of a bearing, vertical"] = 10e9
     bearing_damping: Annotated[q.Damping, "of a bearing, vertical"] = 0.0

@@ -9,6 +9,7 @@ from contactstudy.exceptions import ContactStudyError
 from contactstudy.executor import Progress, Task
 from contactstudy.solids.cache import CachedBody, cached, is_cached
 from contactstudy.solvers import observers
+from contactstudy.solvers.car_bodies import CarBodies
 from contactstudy.solvers.observers import Observer
 from contactstudy.study.kinds.passage import build, contact
 from contactstudy.study.kinds.passage.roughness import irregularity_of, irregularity_of_rails
@@ -47,7 +48,7 @@ def _point(study: Study, run: str, table: PointRun, progress: Progress | None) -
         contact_filter=contact.contact_filter(study, run),
         wheel=contact.point_wheel(study, run),
         lateral_stiffness=table.lateral_k_r,
-        observers=_reports(progress),
+        observers=(*_reports(progress), CarBodies()),
         integrator=table.method(),
     )
 

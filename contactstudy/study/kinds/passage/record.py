@@ -15,14 +15,20 @@ from contactstudy.exceptions import InputError
 from contactstudy.irregularity.table import read_numbers
 from contactstudy.solvers.dataset import POINT_SIGNALS, SIGNALS
 from contactstudy.solvers.journey import Journey
+from contactstudy.track.model import Track
 from contactstudy.units import UnitError, to_si
 from contactstudy.validation import Above, File, Naming, Parameters, Unit, complaint, did_you_mean
 
 if TYPE_CHECKING:
     import xarray as xr
 
-STATION_SIGNALS = {"station_displacement": "m"}
-"""Signals at the journey's stations and their units."""
+STATION_SIGNALS = {
+    "station_displacement": "m",
+    "deck_displacement": "m",
+    "deck_acceleration": "m/s^2",
+    "deck_strain": "1",
+}
+"""Signals at the journey's stations, on a bridge also of its decks, and their units."""
 _CHANNEL = re.compile(r"(?P<column>[^=]+?)\s*=\s*(?P<signal>\w+)(?:\s+at\s+(?P<at>.+))?")
 _FORM = 'must be like "COLUMN = SIGNAL" or "COLUMN = SIGNAL at 12.5 m"'
 _SECONDS = {"s": 1.0, "ms": 1e-3, "us": 1e-6}
@@ -122,7 +128,7 @@ class MeasuredRecord(Parameters):
         """The channels."""
         return tuple(_channel(text) for text in self.channels)
 
-    def problems_on(self, journey: Journey) -> list[str]:
+    def problems_on(self, journey: Journey, track: Track | None) -> list[str]:
         """Stations that a run does not have; a file that cannot be used; no common time."""
         if self._wrong_channels():
             return []  # complained about
@@ -133,6 +139,11 @@ class MeasuredRecord(Parameters):
             for k, (text, channel) in enumerate(zip(self.channels, self.parsed, strict=True))
             if channel.at is not None
             and not any(abs(channel.at - x) < 1e-6 for x in journey.stations)
+        ]
+        problems += [
+            complaint(f"measured.channels.{k}", text, "needs a place on a bridge's deck")
+            for k, (text, channel) in enumerate(zip(self.channels, self.parsed, strict=True))
+            if channel.signal.startswith("deck_") and track and not _on_deck(track, channel.at)
         ]
         try:
             record = self.read()
@@ -170,6 +181,11 @@ class MeasuredRecord(Parameters):
             raise InputError(problems)
         factors = [factor(self.unit, channel.unit) for channel in self.parsed]
         return Record(time, table[:, len(named) :].T * np.array(factors)[:, None])
+
+
+def _on_deck(track: Track, x: float | None) -> bool:
+    decks = () if track.structure is None else track.structure.decks
+    return x is not None and any(ends[0] <= x <= ends[-1] for ends in decks)
 
 
 def factor(unit: str, si: str) -> float:

@@ -172,7 +172,7 @@ class Related:
 
         The wheel on its contact has ``omega^2 = k b M^-1 b`` at least, the rail's motion raises it.
         """
-        if not run.undamped:
+        if not run.undamped or run.law == "moving_force":
             return
         found = []
         step = self._step(run)

@@ -46,12 +46,15 @@ def _measured(results: StudyResults) -> list[Table]:
     table = Table(title="against the measured record", box=SIMPLE, collapse_padding=True)
     table.add_column("run", no_wrap=True)
     table.add_column("channel", no_wrap=True)
-    for heading in ("correlation", "peak ratio", "error", "timing ms", "shift s", "scale"):
+    for heading in ("correlation", "peaks", "error", "late by ms"):
         table.add_column(heading, justify="right", no_wrap=True)
+    told = []
     for name, one in found.items():
         if "failure" in one:
-            table.add_row(name, one["failure"])
-        for column, channel in one.get("channels", {}).items():
+            table.add_row(name, Text(one["failure"]))
+            continue
+        told.append(f"{name}: record shifted by {one['shift']:.4f} s, scale {one['scale']:.4g}")
+        for column, channel in one["channels"].items():
             table.add_row(
                 name,
                 column,
@@ -59,9 +62,8 @@ def _measured(results: StudyResults) -> list[Table]:
                 f"{channel['peak_ratio']:.3f}",
                 f"{100 * channel['normalised_error']:.1f} %",
                 f"{1e3 * channel['timing']:.1f}",
-                f"{one['shift']:.4f}",
-                f"{one['scale']:.4g}",
             )
+    table.caption = Text("\n".join(told))
     return [table]
 
 

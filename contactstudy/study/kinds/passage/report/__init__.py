@@ -10,6 +10,7 @@ from contactstudy.report.blocks import Block, cited, figure, paragraphs, text
 from contactstudy.study.kind import Part, Report
 from contactstudy.study.kinds.passage.drawings import drawings
 from contactstudy.study.kinds.passage.report.abstract import GRADES, abstract
+from contactstudy.study.kinds.passage.report.comfort_table import comfort_table
 from contactstudy.study.kinds.passage.report.conclusion import conclusion
 from contactstudy.study.kinds.passage.report.measured_table import measured_tables
 from contactstudy.study.kinds.passage.report.rungs import rung_tables
@@ -51,7 +52,7 @@ def report(results: StudyResults, timings: bool = False) -> Report:
         conclusion=conclusion(results),
         subject=_subject(results, timings),
         sources=_sources(results),
-        parts=[*parts, *_errors(results)],
+        parts=[*parts, *_cars(results), *_errors(results)],
         as_companion=_as_companion(results, parts, timings),
         topics=_topics(results),
         model="model.typ",
@@ -113,6 +114,11 @@ def _parts(results: StudyResults) -> list[Part]:
         if blocks:
             parts.append({"title": title, "blocks": blocks})
     return parts
+
+
+def _cars(results: StudyResults) -> list[Part]:
+    blocks = comfort_table(results)
+    return [{"title": "The cars", "blocks": blocks}] if blocks else []
 
 
 def _errors(results: StudyResults) -> list[Part]:
