@@ -22,6 +22,40 @@ SHORT = {
 }
 
 
+ROOT = Path(__file__).parents[2]
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+
+
+@pytest.mark.parametrize("page", PAGES, ids=[page.name for page in PAGES])
+def test_links_of_the_pages_lead_somewhere(page):
+    text = page.read_text("utf-8")
+    links = [link for link in re.findall(r"\]\(([^)#]+)\)", text) if "://" not in link]
+    assert all((page.parent / link).exists() for link in links), links
+    assert "\t" not in text and max(map(len, text.splitlines())) < 250
+
+
+def test_the_readme_is_short():
+    assert len((ROOT / "README.md").read_text("utf-8").splitlines()) <= 120
+
+
+RUNS = '\n[runs.surface]\nsolver = "surface"\n[runs.point]\nsolver = "point"\n'
+BLOCKS = re.findall(
+    r"```toml\n(.*?)```", (ROOT / "docs" / "studies.md").read_text("utf-8"), re.DOTALL
+)
+
+
+@pytest.mark.parametrize("block", BLOCKS, ids=[block.split("\n")[0] for block in BLOCKS])
+def test_documented_studies_have_known_keys(block, tmp_path):
+    """The files that some of them name are not there: that alone may be wrong."""
+    study = tmp_path / "documented.toml"
+    bare = "[runs." not in block and "[positions]" not in block
+    study.write_text(block + (RUNS if bare else ""), "utf-8")
+    try:
+        cs.load(study)
+    except InputError as error:
+        assert all("cannot be read" in p or "file" in p for p in error.problems), str(error)
+
+
 def test_every_name_is_there():
     for name in cs.__all__:
         assert getattr(cs, name) is not None
