@@ -13,6 +13,7 @@ the pressure, see `contactstudy.halfspace.subsurface`.
 
 from __future__ import annotations
 
+import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from xml.sax.saxutils import quoteattr
@@ -20,7 +21,7 @@ from xml.sax.saxutils import quoteattr
 import numpy as np
 
 from contactstudy.arrays import Array
-from contactstudy.files import write_file, writing
+from contactstudy.files import write_file
 from contactstudy.halfspace.pressure_field import SurfacePressure
 from contactstudy.halfspace.subsurface import SHALLOWEST, half_space_stress
 from contactstudy.solids.stress import maximum_shear, von_mises
@@ -62,14 +63,21 @@ def write_fields(results: StudyResults, out_dir: Path) -> list[Path]:
                 if mesh is None:
                     continue
                 target = folder / f"{name}_{part}_{k}.vtu"
-                with writing(target) as stream:
-                    mesh.write(stream, file_format="vtu")
+                write_file(target, _vtu(mesh))
                 entries.append((time, part, target.name))
                 written.append(target)
         target = folder / f"{name}.pvd"
         write_file(target, _collection(entries))
         written.append(target)
     return written
+
+
+def _vtu(mesh: meshio.Mesh) -> bytes:
+    """A mesh as a VTU file; meshio writes that by the file's name only."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "mesh.vtu"
+        mesh.write(path, file_format="vtu")
+        return path.read_bytes()
 
 
 def patch_mesh(run: xr.Dataset, instant: int) -> meshio.Mesh:
