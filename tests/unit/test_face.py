@@ -10,6 +10,7 @@ import pytest
 import contactstudy as cs
 from contactstudy import cli
 from contactstudy.exceptions import InputError
+from contactstudy.study.loading import load_study
 
 SNIPPETS = re.findall(
     r"```python\n(.*?)```", (Path(__file__).parents[2] / "README.md").read_text("utf-8"), re.DOTALL
@@ -44,16 +45,17 @@ BLOCKS = re.findall(
 )
 
 
-@pytest.mark.parametrize("block", BLOCKS, ids=[block.split("\n")[0] for block in BLOCKS])
+@pytest.mark.parametrize("block", BLOCKS, ids=[block.split("]")[0] for block in BLOCKS])
 def test_documented_studies_have_known_keys(block, tmp_path):
     """The files that some of them name are not there: that alone may be wrong."""
     study = tmp_path / "documented.toml"
     bare = "[runs." not in block and "[positions]" not in block
     study.write_text(block + (RUNS if bare else ""), "utf-8")
     try:
-        cs.load(study)
+        load_study(study, quick=True)
     except InputError as error:
-        assert all("cannot be read" in p or "file" in p for p in error.problems), str(error)
+        assert not any("unknown key" in p for p in error.problems), str(error)
+        assert "no such file" in str(error) or "[scan]" in block, str(error)
 
 
 def test_every_name_is_there():
