@@ -15,7 +15,6 @@ from contactstudy.exceptions import InputError
 from contactstudy.export.hexahedra import Hexahedra, rail_hexahedra, wheel_hexahedra
 from contactstudy.geometry.placement import Geometry
 from contactstudy.geometry.pose import Pose
-from contactstudy.profiles import wheel_curve
 from contactstudy.solids.mapped import on_mirror
 from contactstudy.solids.recipe import CellRecipe
 from contactstudy.solids.wheel_recipe import WheelRecipe
@@ -150,7 +149,7 @@ def _contradictions(cell: CellRecipe, wheel: WheelRecipe, geometry: Geometry | N
     if geometry is None:
         return problems
     given = geometry.rail.name, geometry.wheel.name, geometry.radius
-    meshed = cell.profile, wheel_curve(wheel.profile).name, wheel.dimensions.radius
+    meshed = cell.profile, wheel.curve.name, wheel.dimensions.radius
     what = "geometry's rail", "geometry's wheel", "geometry's radius in m"
     return problems + [
         f"{name} = {g}: must be what is meshed, {m}"

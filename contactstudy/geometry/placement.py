@@ -11,7 +11,7 @@ from contactstudy.geometry.facing import Facing, surface_gap
 from contactstudy.geometry.pose import PlacedWheel, Pose
 from contactstudy.geometry.smooth_touch import SmoothTouch, smooth_touch
 from contactstudy.profiles.curve import ProfileCurve
-from contactstudy.profiles.named import rail_curve, wheel_curve
+from contactstudy.profiles.named import rail_curve
 from contactstudy.solids.wheel_recipe import WheelRecipe
 
 
@@ -35,7 +35,7 @@ class Geometry:
     @classmethod
     def of(cls, recipe: WheelRecipe, pose: Pose | None = None) -> "Geometry":
         """Of the profiles that a wheel's recipe names; centred and upright without a pose."""
-        rail, wheel = rail_curve(recipe.rail_profile), wheel_curve(recipe.profile)
+        rail, wheel = rail_curve(recipe.rail_profile), recipe.curve
         return cls(rail, wheel, recipe.dimensions.radius, pose or Pose())
 
     @cached_property

@@ -23,7 +23,7 @@ from contactstudy.profiles.pieces import ParametricPiece, SplinePath
 if TYPE_CHECKING:
     from scipy.interpolate import BSpline
 
-_POINTS = 5  # least number of points to an interval
+_POINTS = 3  # least number of points to an interval
 _ROUNDS, _GAIN = 20, 1e-5  # repetitions, and relative fall of the residual that is worth one
 _SETTLED = 1e-6  # change of the feet [m] at which fit and projection agree
 _FLOOR = 2e-9  # scatter [m] below which nothing is fitted: coordinates in single precision
@@ -63,6 +63,12 @@ class CloudFit:
     def knots(self) -> Array:
         """Arc lengths of the ends and the knots between [m]."""
         return np.unique(self.spline.t)
+
+    @property
+    def criterion(self) -> float:
+        """Schwarz's criterion for the points and two numbers a knot; the least is the best."""
+        n = len(self.s)
+        return float(n * np.log(max(self.rms, _FLOOR) ** 2) + 2 * len(self.knots) * np.log(n))
 
     @property
     def rms(self) -> float:

@@ -36,11 +36,13 @@ def fit_wheel_tread(
         circumference to find the axis.
     """
     p, n = np.asarray(points, dtype=float), np.asarray(normals, dtype=float)
-    base = np.array([0.0, tape, 0.0])
+    # from the middle of the scan, whose place along the rail and height mean nothing
+    middle = 0.5 * (p.min(axis=0) + p.max(axis=0))
+    base = np.array([middle[0], tape, middle[2]])
     x0, z0, yaw = _first_axis(p - base, n, name)
     # the tape circle is at its place where the wheel is lowest
-    base[0], x0 = x0, 0.0
-    p = p - base
+    base[0], x0 = base[0] + x0, 0.0
+    p = np.asarray(points, dtype=float) - base
     radial = _from_axis(p, x0, z0, yaw)
     out = (_turned(n, yaw)[:, 0] * radial[1] + n[:, 2] * radial[2]) > np.cos(STEEPEST)
     depth = radial[0][out].max(initial=-np.inf) - radial[0]

@@ -12,12 +12,17 @@ from contactstudy.csv_rows import finite_number, header_cells, listed, read_rows
 from contactstudy.exceptions import InputError
 from contactstudy.profiles.cloud import fit_cloud
 from contactstudy.profiles.curve import ProfileCurve
-from contactstudy.profiles.orientation import TAPE, shape_of_rail, shape_of_wheel
+from contactstudy.profiles.orientation import (
+    TAPE,
+    Way,
+    shape_of_rail,
+    shape_of_wheel,
+    turned,
+)
 from contactstudy.profiles.outliers import (
-    BEARABLE,
     LARGEST_RESIDUAL,
     MOST,
-    curvature_error,
+    doubted,
     outliers,
 )
 from contactstudy.profiles.profile_file import SUFFIXES, FilePoints, read_points
@@ -29,18 +34,27 @@ POINTS = 20
 """Fewest points of a profile."""
 WIDTHS = (0.02, 0.3)
 """Narrowest and widest profile [m]: anything else has the wrong unit."""
+KNOTS = 0.7e-3
+"""Least distance of a curve's knots [m]."""
+SPACINGS = (1.0, 1.07, 1.2, 1.4)
+"""Distances of knots that are tried, over the least: where knots lie beside the joints of arcs is
+chance, and the curvature swings there."""
 LARGEST_GAP = 4e-3
 """Longest stretch without a point [m]."""
 
 
 def worn_curve(
-    path: str | Path, body: Body, unit: str | None = None, smoothing: float = 1e-3
+    path: str | Path,
+    body: Body,
+    unit: str | None = None,
+    smoothing: float = KNOTS,
+    ways: tuple[Way, Way] = ("own", "own"),
 ) -> ProfileCurve:
     """Smooth profile through the measured points of a CSV file.
 
     A cubic spline by arc length is fitted by least squares along the normal, with knots
-    `smoothing` or more apart: where the points' scatter does not ask for a knot there is none
-    (`contactstudy.profiles.cloud`).
+    `smoothing` or more apart, of several spacings that with the least Schwarz criterion: where the
+    points' scatter does not ask for a knot there is none (`contactstudy.profiles.cloud`).
 
     Parameters
     ----------
@@ -54,6 +68,9 @@ def worn_curve(
         Where the header does not state it.
     smoothing : float
         Least distance of the spline's knots [m].
+    ways : tuple of str
+        Where the file's y and z point; "own" is to the field side and up, in files of MiniProf and
+        Simpack what their shape says.
 
     Returns
     -------
@@ -71,19 +88,24 @@ def worn_curve(
     if not smoothing > 0:
         raise InputError(f"{file}: smoothing = {smoothing:g} m; allowed: above 0")
     problems: list[str] = []
-    if file.suffix.lower() in SUFFIXES:
-        read, stated = _turned(file, read_points(file, body), body), "mm"
+    foreign = file.suffix.lower() in SUFFIXES
+    if foreign:
+        read, unit = read_points(file, body), "mm"
     else:
-        read, stated = _from_csv(file, unit, problems)
-    problems += _extent(file, read.points, read.lines, stated)
+        read, unit = _from_csv(file, unit, problems)
+    if foreign and ways == ("own", "own"):
+        read = _turned(file, read, body)
+    elif foreign:
+        read = _with_tape_circle(file, replace(read, points=turned(read.points, ways)[0]), body)
+    else:
+        read = replace(read, points=turned(read.points, ways)[0])
+        problems += _order(file, read.points, read.lines)
+    problems += _extent(file, read.points, read.lines, unit)
     if problems:
         raise InputError(problems)
     shape = shape_of_wheel if body == "wheel" else shape_of_rail
-    if faults := shape(read.points).faults():
-        raise InputError(
-            f"{file}: does not look like a {body} with y to the field side and z up: {fault}"
-            for fault in faults
-        )
+    if faults := shape(read.points).faults(body, ways):
+        raise InputError(f"{file}: does not look like a {body}: {fault}" for fault in faults)
     points, notes = _without_outliers(file, read)
     curve = fitted_curve(points, body, smoothing, file.name)
     if curve.residual > LARGEST_RESIDUAL:
@@ -103,15 +125,14 @@ def _from_csv(file: Path, unit: str | None, problems: list[str]) -> tuple[FilePo
         raise InputError(wrong)
     points, lines, faults = _points(rows[1:], index, header)
     points *= UNITS[stated]
-    problems += listed(file, faults) + _order(file, points, lines)
+    problems += listed(file, faults)
     return FilePoints(points, lines, []), stated
 
 
 def _turned(file: Path, read: FilePoints, body: Body) -> FilePoints:
     """Points of another program in our axes: its shape says z, and y of a wheel.
 
-    Rails of Simpack have y to the field side, those of MiniProf to the gauge side. A wheel whose
-    points begin at the flange back has its tape circle 70 mm from there.
+    Rails of Simpack have y to the field side, those of MiniProf to the gauge side.
     """
     p = read.points.copy()
     if len(p) < POINTS:
@@ -125,14 +146,20 @@ def _turned(file: Path, read: FilePoints, body: Body) -> FilePoints:
         y = -1 if file.suffix.lower() == ".ban" else 1
     p *= (y, z)
     notes = [*read.notes]
-    turned = [name for name, factor in (("y", y), ("z", z)) if factor < 0]
-    if turned:
-        notes.append(f"{file.name}: {' and '.join(turned)} turned; {found.told} in the file's axes")
-    if wheel and not p[:, 0].min() < -0.02:
-        back = TAPE + min(float(p[:, 0].min()), 0.0)
-        p[:, 0] -= back
-        notes.append(f"{file.name}: tape circle {1e3 * TAPE:g} mm from the flange back at y = 0")
-    return FilePoints(p, read.lines, notes)
+    other = [name for name, factor in (("y", y), ("z", z)) if factor < 0]
+    if other:
+        notes.append(f"{file.name}: {' and '.join(other)} turned; {found.told} in the file's axes")
+    return _with_tape_circle(file, FilePoints(p, read.lines, notes), body)
+
+
+def _with_tape_circle(file: Path, read: FilePoints, body: Body) -> FilePoints:
+    """A wheel whose points begin at the flange back, moved to have its tape circle at y = 0."""
+    p = read.points
+    if body == "rail" or not len(p) or p[:, 0].min() < -0.02:
+        return read
+    back = TAPE + min(float(p[:, 0].min()), 0.0)
+    told = f"{file.name}: tape circle {1e3 * TAPE:g} mm from the flange back at y = 0"
+    return FilePoints(p - [back, 0.0], read.lines, [*read.notes, told])
 
 
 def _without_outliers(file: Path, read: FilePoints) -> tuple[Array, list[str]]:
@@ -152,23 +179,18 @@ def _without_outliers(file: Path, read: FilePoints) -> tuple[Array, list[str]]:
 
 
 def fitted_curve(
-    points: Array, body: Body, smoothing: float = 1e-3, name: str = "worn profile"
+    points: Array, body: Body, smoothing: float = KNOTS, name: str = "worn profile"
 ) -> ProfileCurve:
     """Smooth profile through points (n, 2) = (y, z) along which y grows [m], as in `worn_curve`."""
-    fit = fit_cloud(points, smoothing, name)
+    fits = [fit_cloud(points, smoothing * factor, name) for factor in SPACINGS]
+    fit = min(fits, key=lambda fit: fit.criterion)
     # z = 0 at y = 0: Newton along the curve from the nearest point
     s = float(fit.s[np.argmin(np.abs(points[:, 0]))])
     for _ in range(20):
         s = float(np.clip(s - fit.spline(s)[0] / fit.spline(s, 1)[0], 0.0, fit.length))
     down = np.array([0.0, float(fit.spline(s)[1])])
-    error = curvature_error(fit.scatter, len(points), fit.length, len(fit.knots))
-    notes: tuple[str, ...] = ()
-    if error > BEARABLE:
-        notes = (
-            f"{name}: its points scatter by {1e6 * fit.scatter:.3g} um, which leaves the curvature "
-            f"uncertain by {error:.2g} 1/m (a 60E1 crown has 3.3 1/m)",
-        )
-    return replace(fit.curve(down, body == "rail", name), notes=notes)
+    told = doubted(name, fit.scatter, len(points), fit.length, len(fit.knots))
+    return replace(fit.curve(down, body == "rail", name), notes=(told,) if told else ())
 
 
 def _columns(

@@ -11,7 +11,9 @@ import numpy as np
 from contactstudy.arrays import Array, IntArray
 from contactstudy.exceptions import InputError
 from contactstudy.given_files import file_content
+from contactstudy.profiles.orientation import Way, turned
 from contactstudy.profiles.worn import Body
+from contactstudy.scans.facing import wrong_axes
 from contactstudy.scans.faults import faults
 
 if TYPE_CHECKING:
@@ -19,6 +21,8 @@ if TYPE_CHECKING:
 
 UNITS = {"mm": 1e-3, "m": 1.0, "cm": 1e-2, "um": 1e-6, "in": 25.4e-3}
 """Length units of a file, in m."""
+Ways3 = tuple[Way, Way, Way]
+OWN3: Ways3 = ("own", "own", "own")
 SUFFIXES = (".stl", ".ply", ".obj")
 
 #: What a rail head's or a wheel tread's size across (Y) and along (X) can be [m].
@@ -28,11 +32,14 @@ _SIZES = {
 }
 
 
-def read_mesh(path: str | Path, unit: str, body: Body) -> trimesh.Trimesh:
+def read_mesh(
+    path: str | Path, unit: str, body: Body, ways: Ways3 = OWN3, tape: float = 0.0
+) -> trimesh.Trimesh:
     """Surface [m] of an STL (text or binary), PLY or OBJ file, its equal vertices joined.
 
-    All its parts together with their triangles, in the file's own axes: X along the rail, Y to the
-    field side, Z up.
+    All its parts together with their triangles, X along the rail, Y to the field side, Z up. The
+    axes of the file point the `ways` stated, "own" ones as these. `tape` is Y of a wheel's tape
+    circle [m].
 
     Raises
     ------
@@ -45,16 +52,22 @@ def read_mesh(path: str | Path, unit: str, body: Body) -> trimesh.Trimesh:
     if unit not in UNITS:
         raise InputError(f"{file}: unit is '{unit}'; allowed: {', '.join(UNITS)}")
     vertices, faces = _triangles(file)
-    wrong = np.flatnonzero(~np.isfinite(vertices).all(axis=1))
-    if len(wrong):
-        touched = np.flatnonzero(np.isin(faces, wrong).any(axis=1))
+    infinite = np.flatnonzero(~np.isfinite(vertices).all(axis=1))
+    if len(infinite):
+        touched = np.flatnonzero(np.isin(faces, infinite).any(axis=1))
         raise InputError(
-            f"{file}: {len(wrong)} vertices are not finite numbers, in {len(touched)} triangles "
+            f"{file}: {len(infinite)} vertices are not finite numbers, in {len(touched)} triangles "
             f"(the first: {', '.join(str(k) for k in touched[:3])})"
         )
-    mesh = _joined(vertices * UNITS[unit], faces)
+    vertices, mirrored = turned(vertices, ways)
+    mesh = _joined(vertices * UNITS[unit], faces[:, ::-1] if mirrored else faces)
     problems = _sizes(file, mesh.extents, unit, body)
-    problems += [f"{file}: {fault}" for fault in faults(mesh, body, UNITS[unit], unit)]
+    if problems:
+        raise InputError(problems)
+    points = np.asarray(mesh.vertices)
+    if wrong := wrong_axes(points, np.asarray(mesh.faces), body, ways, tape)[0]:
+        raise InputError(f"{file}: does not look like a {body}: {fault}" for fault in wrong)
+    problems = [f"{file}: {fault}" for fault in faults(mesh, body, UNITS[unit], unit)]
     if problems:
         raise InputError(problems)
     return mesh

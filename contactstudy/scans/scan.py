@@ -10,13 +10,13 @@ import numpy as np
 
 from contactstudy.exceptions import InputError
 from contactstudy.profiles.curve import ProfileCurve
-from contactstudy.profiles.outliers import LARGEST_RESIDUAL
+from contactstudy.profiles.outliers import LARGEST_RESIDUAL, doubted, scatter_of_rounding
 from contactstudy.profiles.scan_fit import STEEPEST, ScanFit
 from contactstudy.profiles.scanned_rail import RAIL_DEPTH, fit_rail_head
 from contactstudy.profiles.scanned_wheel import WHEEL_DEPTH, fit_wheel_tread
 from contactstudy.profiles.worn import Body
 from contactstudy.scans.faults import triangles
-from contactstudy.scans.reading import read_mesh
+from contactstudy.scans.reading import OWN3, UNITS, Ways3, read_mesh
 
 if TYPE_CHECKING:
     import trimesh
@@ -44,6 +44,8 @@ class Scan:
     body: Body
     mesh: trimesh.Trimesh
     fit: ScanFit
+    #: What its scatter leaves in doubt, "" for nothing.
+    doubt: str = ""
 
     @property
     def curve(self) -> ProfileCurve:
@@ -69,6 +71,7 @@ def read_scan(
     origin: float = 0.0,
     smoothing: float = 1e-3,
     residual_limit: float = LARGEST_RESIDUAL,
+    ways: Ways3 = OWN3,
 ) -> Scan:
     """Read a scan and fit the smooth surface.
 
@@ -82,6 +85,8 @@ def read_scan(
     smoothing, residual_limit : float
         Least distance of the fitted curve's knots, and largest allowed root mean square of the
         residual [m].
+    ways : tuple of str
+        Where the file's x, y and z point, see `contactstudy.scans.reading.read_mesh`.
 
     Raises
     ------
@@ -92,7 +97,7 @@ def read_scan(
     import trimesh
 
     name = Path(path).name
-    mesh = read_mesh(path, unit, body)
+    mesh = read_mesh(path, unit, body, ways, origin)
     fit_body = fit_rail_head if body == "rail" else fit_wheel_tread
     points, normals = np.asarray(mesh.vertices), np.asarray(mesh.vertex_normals)
     used = np.zeros(len(points), dtype=bool)
@@ -107,8 +112,20 @@ def read_scan(
             f"{1e6 * fit.scatter:.4g} um is scatter from point to point; scan a shorter or cleaner "
             "piece, or raise the limit"
         )
+    rounding = scatter_of_rounding(points, points / UNITS[unit])
+    try:
+        low, high = fit.curve.s_range
+        doubt = doubted(name, max(fit.scatter, rounding), fit.points, high - low, fit.knots)
+    except InputError as error:
+        # who raises the limit of the residual has seen it
+        problems += error.problems if residual_limit <= LARGEST_RESIDUAL else ()
+        doubt = error.problems[0]
     scan = Scan(
-        name, body, trimesh.Trimesh(fit.aligned(mesh.vertices), mesh.faces, process=False), fit
+        name,
+        body,
+        trimesh.Trimesh(fit.aligned(mesh.vertices), mesh.faces, process=False),
+        fit,
+        doubt,
     )
     flipped = _facing_inwards(scan, residual_limit)
     if len(flipped):

@@ -17,7 +17,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from contactstudy.arrays import Array, BoolArray, IntArray
-from contactstudy.profiles.named import rail_curve, wheel_curve
+from contactstudy.profiles.named import rail_curve
 from contactstudy.solids.chain import BlockTridiagonal, Slice, repeat
 from contactstudy.solids.ring import SparseSlice, ring_slice
 from contactstudy.solids.wheel_recipe import WheelRecipe
@@ -163,7 +163,7 @@ def normal_loads(recipe: WheelRecipe, section: WheelSection, angles: Array) -> l
         rail = rail_curve(recipe.rail_profile)
         normal_y, normal_z = rail.normal(rail.arc_of_y(section.nodes[section.tread, 0])).T
     else:
-        normal_y, normal_z = -wheel_curve(recipe.profile).normal(recipe.y).T
+        normal_y, normal_z = -recipe.curve.normal(recipe.y).T
     rows = np.arange(len(section.tread))
     loads = []
     for theta in angles:

@@ -6,7 +6,8 @@ from typing import Annotated
 import numpy as np
 
 from contactstudy.arrays import Array
-from contactstudy.profiles.named import wheel_curve
+from contactstudy.profiles.curve import ProfileCurve
+from contactstudy.profiles.named import OWN, Ways, wheel_curve
 from contactstudy.profiles.wheel_body import WheelDimensions
 from contactstudy.profiles.wheel_file import named_file_digest
 from contactstudy.solids.mapped import Grading
@@ -53,6 +54,8 @@ class WheelRecipe(Parameters):
         Arc length on the profile, 0 at the tape circle, of the middle of the contact zone in m.
     far_step : float
         Largest angle between two planes in rad, away from the contact.
+    profile_ways : tuple of str
+        Where y and z of a profile's file point.
     profile_digest : str
         Of the profile's content where it is a file, its name otherwise; filled in by itself.
     """
@@ -73,6 +76,7 @@ class WheelRecipe(Parameters):
     symmetric: bool = True
     contact_centre: float = 0.0
     far_step: Annotated[float, Unit("rad"), Above(0), AtMost(np.pi / 6), Key("")] = FAR_STEP
+    profile_ways: Ways = OWN
     profile_digest: str = field(init=False, default="")
 
     def problems(self, key: Naming) -> list[str]:
@@ -116,9 +120,14 @@ class WheelRecipe(Parameters):
         return int(np.count_nonzero(np.isclose(steps, steps[-1], rtol=1e-9)))
 
     @property
+    def curve(self) -> ProfileCurve:
+        """The wheel's profile."""
+        return wheel_curve(self.profile, self.profile_ways)
+
+    @property
     def contact_radius(self) -> float:
         """Distance of the contact zone's middle from the axis in m."""
-        height = wheel_curve(self.profile).point(self.contact_centre)[1]
+        height = self.curve.point(self.contact_centre)[1]
         return self.dimensions.radius - float(height)
 
     @property
@@ -145,7 +154,7 @@ class WheelRecipe(Parameters):
         """
         return wheel_section(
             self.dimensions,
-            wheel_curve(self.profile),
+            self.curve,
             self.contact_centre,
             self.contact_half_width,
             Grading(self.size, COARSE, GROWTH),

@@ -5,6 +5,7 @@ import pytest
 
 from contactstudy.exceptions import InputError
 from contactstudy.profiles.named import rail_curve, wheel_curve
+from contactstudy.profiles.outliers import doubted
 from contactstudy.profiles.worn import worn_curve
 
 # arc lengths sampled: 60E1 down to the side faces, S1002 from the flange's face on
@@ -125,3 +126,50 @@ def test_a_profile_must_reach_over_its_origin(tmp_path):
     file = write(tmp_path / "p.csv", points[points[:, 0] > 0.001])
     with pytest.raises(InputError, match="from below to above 0"):
         worn_curve(file, "rail")
+
+
+@pytest.mark.parametrize("name", ["60E1", "S1002"])
+@pytest.mark.parametrize("y_up", [1, -1])
+@pytest.mark.parametrize("z_up", [1, -1])
+@pytest.mark.parametrize("swapped", [False, True])
+def test_stated_axes_are_turned(tmp_path, name, y_up, z_up, swapped):
+    """Columns either way and in either order give the same curve; undeclared ones are refused."""
+    body, points = body_of(name), sampled(name)
+    exact = worn_curve(write(tmp_path / "plain.csv", points), body)
+    columns = points * [y_up, z_up]
+    file = write(tmp_path / "other.csv", columns[:, ::-1] if swapped else columns)
+    ways = "to field" if y_up > 0 else "to flange", "up" if z_up > 0 else "down"
+    curve = worn_curve(file, body, ways=ways[::-1] if swapped else ways)
+    s = np.linspace(-0.015, 0.015, 31)
+    assert curve.point(s) == pytest.approx(exact.point(s), abs=2e-9)
+    if swapped or z_up < 0 or (y_up < 0 and body == "wheel"):
+        with pytest.raises(InputError):
+            worn_curve(file, body)
+
+
+def test_a_wheel_measured_from_its_flange_back_is_refused(tmp_path):
+    points = sampled("S1002") + np.array([0.03, 0.0])
+    with pytest.raises(InputError, match=r"flange's tip is at y = .* from the tape circle"):
+        worn_curve(write(tmp_path / "back.csv", points), "wheel")
+
+
+def test_scatter_is_judged_by_the_curvature_that_it_leaves():
+    """One limit for profiles and scans: points to a knot and knots apart decide, not distance."""
+    assert doubted("x", 0.1e-6, 400, 0.08, 80) == ""
+    assert "uncertain by" in doubted("x", 1e-6, 400, 0.08, 80)
+    with pytest.raises(InputError, match="allowed: up to 10 1/m"):
+        doubted("x", 5e-6, 400, 0.08, 80)
+    assert doubted("x", 5e-6, 400, 0.08, 10) == ""
+
+
+@pytest.mark.parametrize("name", ["60E1", "S1002"])
+def test_one_spike_hardly_changes_the_curve(tmp_path, name):
+    """A point 0.2 mm off is named and left out, and the peak pressure of a press stays."""
+    clean = sampled(name)
+    off = clean.copy()
+    off[len(off) // 2, 1] += 2e-4
+    curves = [worn_curve(write(tmp_path / f"{k}.csv", p), body_of(name)) for k, p in
+              enumerate((clean, off))]  # fmt: skip
+    assert "left out" in curves[1].notes[0] and "line" in curves[1].notes[0]
+    s = np.linspace(-0.007, 0.007, 141)  # between the joints of arcs
+    assert curves[1].curvature(s) == pytest.approx(curves[0].curvature(s), abs=0.1)

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from contactstudy.contact.surface_contact import SurfaceContact
+from contactstudy.profiles.named import OWN
 from contactstudy.profiles.wheel_file import wheel_dimensions
 from contactstudy.solids.bodies import modes_body, rail_body, wheel_body
 from contactstudy.solids.cache import cached
@@ -53,6 +54,7 @@ def wheel_recipe(study: Study) -> WheelRecipe:
     rail, solid = study.track.rail, study.solid
     return WheelRecipe(
         profile="cylinder" if solid.half else study.wheelset.wheel_profile,
+        profile_ways=OWN if solid.half else study.wheelset.wheel_ways,
         symmetric=solid.half,
         contact_centre=contact_zone(study).wheel,
         rail_profile=meshed_rail(study),

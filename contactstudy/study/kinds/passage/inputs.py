@@ -134,7 +134,9 @@ def _scans(study: Study, config: dict[str, Any], files: dict[str, str]) -> tuple
             files[Path(name).name] = file_digest(Path(name))
             config["scan"][key] = Path(name).name
     config["scan"] |= study.scan.fitted()
-    notes = [f"scan {scan.summary()}" for scan in study.scan.surfaces() if scan is not None]
+    scans = [scan for scan in study.scan.surfaces() if scan is not None]
+    notes = [f"scan {scan.summary()}" for scan in scans]
+    notes += [f"scan {scan.doubt}" for scan in scans if scan.doubt]
     assert found is not None
     return (
         *notes,

@@ -111,7 +111,7 @@ def contact_zone(study: Study) -> ContactZone:
     found = _settled(placed, study.vehicle.static_load)
     lines = fine_arcs(0.0, solid.contact_half_width, solid.mesh_size)
     dimensions = wheel_dimensions(solid.wheel_section).with_radius(study.vehicle.wheel_radius)
-    curve = wheel_curve(study.wheelset.wheel_profile)
+    curve = wheel_curve(study.wheelset.wheel_profile, study.wheelset.wheel_ways)
     first, last = tread_reach(dimensions, curve, solid.mesh_size)
     middle = max(
         _rounded(0.5 * (found.s.min() + found.s.max())), _rounded(first - lines[0], np.ceil)

@@ -41,7 +41,7 @@ def remarks(study: Study) -> tuple[str, ...]:
         solid = study.solid
         axes = hertz.semi_axis_x, hertz.semi_axis_y
         zone = solid.contact_half_length, solid.contact_half_width
-        patch = meshed_patch(axes, zone, solid.mesh_size)
+        patch = meshed_patch(axes, zone, solid.mesh_size, solid.half)
     vehicle, radius = vehicle_on(study.track, study.vehicle), study.vehicle.wheel_radius
     related = Related(
         study.journey, study.track, vehicle, radius, study.irregularity, study.runs, stiffness

@@ -11,8 +11,10 @@ from contactstudy.exceptions import InputError
 from contactstudy.geometry.pose import Pose
 from contactstudy.given_files import is_file
 from contactstudy.profiles.curve import ProfileCurve
+from contactstudy.profiles.orientation import Way, problems_of_ways
 from contactstudy.profiles.outliers import LARGEST_RESIDUAL
 from contactstudy.scans import Meeting, Scan, meeting, read_scan
+from contactstudy.scans.reading import Ways3
 from contactstudy.validation import (
     AtLeast,
     AtMost,
@@ -34,6 +36,8 @@ LengthUnit = Literal["", "mm", "m", "cm", "um", "in"]
 class ScanFiles(Parameters):
     """``[scan]``: STL, PLY or OBJ files, X along the rail, Y to the field side, Z up.
 
+    Files with other axes say where these point, e.g. ``wheel_z = "down"``; they are turned first.
+
     The gap is taken from the smooth surfaces that are fitted to the scans; the bodies that are
     meshed below them stay those of the drawn profiles. ``rail_middle`` and ``wheel_tape`` are Y in
     the scan of the rail's middle plane, half way along, and of the wheel's tape circle, at its
@@ -42,9 +46,15 @@ class ScanFiles(Parameters):
 
     rail: Annotated[str, File(), "scanned rail head"] = ""
     rail_unit: Annotated[LengthUnit, "length unit of that file"] = ""
+    rail_x: Annotated[Way, "where x points in that file"] = "own"
+    rail_y: Annotated[Way, "where y points in it"] = "own"
+    rail_z: Annotated[Way, "where z points in it"] = "own"
     rail_middle: Annotated[q.Position, "Y of the rail's middle plane in the scan"] = 0.0
     wheel: Annotated[str, File(), "scanned tread"] = ""
     wheel_unit: Annotated[LengthUnit, "length unit of that file"] = ""
+    wheel_x: Annotated[Way, "where x points in that file"] = "own"
+    wheel_y: Annotated[Way, "where y points in it"] = "own"
+    wheel_z: Annotated[Way, "where z points in it"] = "own"
     wheel_tape: Annotated[q.Position, "Y of the tape circle in the scan"] = 0.0
     smoothing: Annotated[
         float, Unit("m"), AtLeast(1e-5), AtMost(0.01), "least distance of the fitted curve's knots"
@@ -68,9 +78,11 @@ class ScanFiles(Parameters):
                 found.append(f"{key(f'{body}_unit')}: {allowed}")
             found += [
                 complaint(key(name), getattr(self, name), f"applies only with {key(body)}")
-                for name in (f"{body}_unit", origin)
+                for name in (f"{body}_unit", origin, *(f"{body}_{axis}" for axis in "xyz"))
                 if not file and self.given(name) and getattr(self, name)
             ]
+            names = [key(f"{body}_{axis}") for axis in "xyz"]
+            found += problems_of_ways(self.ways(body), names)
         if not self.used:
             found += [
                 complaint(key(name), getattr(self, name), "applies only with a scan")
@@ -78,6 +90,15 @@ class ScanFiles(Parameters):
                 if self.given(name)
             ]
         return found
+
+    def ways(self, body: str) -> Ways3:
+        """Where x, y and z of a body's file point."""
+        x, y, z = (getattr(self, f"{body}_{axis}") for axis in "xyz")
+        return x, y, z
+
+    def resolved(self) -> dict[str, Any]:
+        """Key -> SI value, axes only where they are stated."""
+        return {k: v for k, v in super().resolved().items() if v != "own"}
 
     def surfaces(self) -> tuple[Scan | None, Scan | None]:
         """The scans of rail and wheel that there are.
@@ -94,7 +115,15 @@ class ScanFiles(Parameters):
             try:
                 path = Path(file)
                 changed = path.stat().st_mtime_ns if file and is_file(path) else 0
-                scanned = (file, unit, body, origin, self.smoothing, self.residual_limit)
+                scanned = (
+                    file,
+                    unit,
+                    body,
+                    origin,
+                    self.smoothing,
+                    self.residual_limit,
+                    self.ways(body),
+                )
                 found.append(_read(changed, *scanned) if file else None)
             except InputError as error:
                 problems += [f"scan.{body}: {problem}" for problem in error.problems]

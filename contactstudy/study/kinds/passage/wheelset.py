@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import numpy as np
 
@@ -13,12 +13,14 @@ from contactstudy.exceptions import ContactStudyError, InputError
 from contactstudy.geometry.pose import Pose
 from contactstudy.geometry.wheelset import SIDES, Side, Wheelset, WheelsetDimensions
 from contactstudy.profiles.curve import ProfileCurve
-from contactstudy.profiles.named import rail_curve, wheel_curve
+from contactstudy.profiles.named import Ways, rail_curve, wheel_curve
+from contactstudy.profiles.orientation import problems_of_ways
 from contactstudy.validation import AtLeast, AtMost, File, Naming, Unit, raise_if
 from contactstudy.validation import quantities as q
 
 PATHS = ("wheel_profile", "rail_profile")
 """Keys that may hold a file's name instead of a profile's."""
+ProfileWay = Literal["own", "to field", "to flange", "to gauge", "up", "down"]
 _MAKERS = {"rail_profile": rail_curve, "wheel_profile": wheel_curve}
 CLIMBED = math.atan(0.5)
 """Contact angle on the flange's tip below which a wheel counts as derailed: our limit.
@@ -31,7 +33,38 @@ _BESIDE = 0.05
 
 
 @dataclass(frozen=True)
-class WheelsetPosition(WheelsetDimensions):
+class ProfileFiles(WheelsetDimensions):
+    """A wheelset whose profiles may be files, and where their axes point."""
+
+    wheel_y: Annotated[ProfileWay, "where y points in the file of the wheel's profile"] = "own"
+    wheel_z: Annotated[ProfileWay, "where z points in it"] = "own"
+    rail_y: Annotated[ProfileWay, "where y points in the file of the rail's profile"] = "own"
+    rail_z: Annotated[ProfileWay, "where z points in it"] = "own"
+
+    @property
+    def wheel_ways(self) -> Ways:
+        """Where y and z of the wheel's file point."""
+        return self.wheel_y, self.wheel_z
+
+    @property
+    def rail_ways(self) -> Ways:
+        """Where y and z of the rail's file point."""
+        return self.rail_y, self.rail_z
+
+    def resolved(self) -> dict[str, Any]:
+        """Key -> SI value, axes only where they are stated."""
+        return {k: v for k, v in super().resolved().items() if v != "own"}
+
+    def problems(self, key: Naming) -> list[str]:
+        """Axes that are none."""
+        return [
+            *problems_of_ways(self.wheel_ways, (key("wheel_y"), key("wheel_z"))),
+            *problems_of_ways(self.rail_ways, (key("rail_y"), key("rail_z"))),
+        ]
+
+
+@dataclass(frozen=True)
+class WheelsetPosition(ProfileFiles):
     """Profiles, and where the wheelset stands; used with ``solid.section = "whole"``.
 
     Shift, yaw and roll are those of the wheelset: to the right, clockwise seen from above, right
@@ -58,6 +91,7 @@ class WheelsetPosition(WheelsetDimensions):
         """Smooth profiles of rail and wheel."""
         rail, wheel = smooth_profiles(
             lambda name: f"wheelset.{name}",
+            self,
             rail_profile=self.rail_profile or meshed_rail,
             wheel_profile=self.wheel_profile,
         )
@@ -74,7 +108,7 @@ class WheelsetPosition(WheelsetDimensions):
         return _pose(self, rail, wheel, radius)
 
 
-def smooth_profiles(key: Naming, **names: str) -> list[ProfileCurve]:
+def smooth_profiles(key: Naming, files: ProfileFiles, **names: str) -> list[ProfileCurve]:
     """Profiles by ``rail_profile`` and ``wheel_profile``, in the order of these names.
 
     Raises
@@ -85,7 +119,8 @@ def smooth_profiles(key: Naming, **names: str) -> list[ProfileCurve]:
     problems, found = [], []
     for name, profile in names.items():
         try:
-            found.append(_MAKERS[name](profile))
+            ways = files.rail_ways if name == "rail_profile" else files.wheel_ways
+            found.append(_MAKERS[name](profile, ways))
         except InputError as error:
             problems += [f"{key(name)}: {problem}" for problem in error.problems]
     raise_if(problems)

@@ -9,12 +9,13 @@ from pathlib import Path
 from typing import Annotated, Any, ClassVar, Literal
 
 from contactstudy.exceptions import InputError
-from contactstudy.geometry.wheelset import SIDES, Side, Wheelset, WheelsetDimensions
+from contactstudy.geometry.wheelset import SIDES, Side, Wheelset
 from contactstudy.halfspace.hertz import contact_modulus
 from contactstudy.profiles.wheel_file import named_file_digest
 from contactstudy.study.axes.series import by_step
 from contactstudy.study.kinds.passage.wheelset import (
     PATHS,
+    ProfileFiles,
     WheelsetPosition,
     off_track,
     smooth_profiles,
@@ -64,7 +65,7 @@ SERIES = Written(_series)
 
 
 @dataclass(frozen=True)
-class Positions(WheelsetDimensions):
+class Positions(ProfileFiles):
     """``[positions]``: a wheelset, its rails, where it stands, and the load on each wheel."""
 
     wheels: Annotated[tuple[Side, ...], "which wheels are pressed"] = SIDES
@@ -95,7 +96,8 @@ class Positions(WheelsetDimensions):
     def problems(self, key: Naming) -> list[str]:
         """Series of unequal lengths, and wheels named twice."""
         n = len(self.lateral)
-        problems = [
+        wrong_ways = super().problems(key)
+        problems = wrong_ways + [
             f"{key(name)}: has {len(values)} values; must have one, or one for each of the "
             f"{n} of {key('lateral')}"
             for name in ("yaw", "roll")
@@ -103,6 +105,8 @@ class Positions(WheelsetDimensions):
         ]
         if not self.wheels or len(set(self.wheels)) < len(self.wheels):
             problems.append(f'{key("wheels")}: must name "left", "right" or both, once each')
+        if wrong_ways:
+            return problems
         try:
             self._wheelset(key)
         except InputError as error:
@@ -116,7 +120,7 @@ class Positions(WheelsetDimensions):
 
     def _wheelset(self, key: Naming) -> Wheelset:
         profiles = {name: getattr(self, name) for name in PATHS}
-        wheel, rail = smooth_profiles(key, **profiles)
+        wheel, rail = smooth_profiles(key, self, **profiles)
         made = Wheelset.of(self, wheel, rail, self.wheel_radius)
         try:
             beside = off_track(key, made)
