@@ -23,8 +23,9 @@ _SHOWN = 4  # differences
 def refuse_other(plan: Plan, overwrite: bool) -> None:
     """Refuse a folder in which results cannot be written, or which holds another study's.
 
-    The same study as another version of the program reads it is no other one: of its keys only
-    those count that both versions have.
+    What only has more runs, or more values along its axes, holds the earlier results too. The same
+    study as another version of the program reads it is no other one: of its keys only those count
+    that both versions have.
 
     Parameters
     ----------
@@ -92,17 +93,26 @@ def _differences(plan: Plan) -> Iterator[str]:
     there, here = _flat(held["config"]), _flat(_plain(plan.inputs.config))
     units = plan.study.units()
     same_program = held["provenance"].get("code") == code_digest()[:16]
+    runs = held["config"].get("runs", {})
     for key in dict.fromkeys([*here, *there]):
         if key not in here or key not in there:
-            if same_program:
+            table, _, name = key.rpartition(".")[0].partition(".")
+            more = key in here and ((table == "runs" and name not in runs) or table == "compare")
+            if same_program and not more:
                 yield f"{key} is set only {'here' if key in here else 'there'}"
-        elif here[key] != there[key]:
+        elif here[key] != there[key] and not _more(key, here[key], there[key]):
             unit = units.get(key, "")
             yield f"{key} is {_told(there[key], unit)} there and {_told(here[key], unit)} here"
     files = held["provenance"].get("files") or {}
     for name, content in plan.inputs.files.items():
         if name in files and files[name] != content:
             yield f"the file {name} has changed"
+
+
+def _more(key: str, here: Any, there: Any) -> bool:
+    """Whether an axis has all the values that it had."""
+    lists = isinstance(here, list) and isinstance(there, list)
+    return lists and key.startswith("axes.") and all(value in here for value in there)
 
 
 def _held(file: Path) -> dict[str, Any] | None:

@@ -70,12 +70,11 @@ def test_other_results_are_not_written_over(run, tmp_path, options, told):
     assert run()[0] == 2
 
 
-def test_another_run_is_another_configuration(run, tmp_path):
+def test_more_runs_hold_the_earlier_ones_too(run, tmp_path):
     more = SHORT + '[runs.hertz]\nsolver = "point"\nlaw = "hertz"\n'
-    assert run()[0] == 0
-    assert "runs.hertz" in run(text=more)[1]
-    assert run("--overwrite", text=more)[0] == 0
+    assert run()[0] == 0 and run(text=more)[0] == 0
     assert (tmp_path / "out" / "figures" / "hertz.pdf").exists()
+    assert "runs.hertz.solver is set only there" in run()[1]
     (tmp_path / "out" / "figures" / "mine.pdf").write_bytes(b"mine")
     assert run("--overwrite")[0] == 0
     left = {p.name for p in (tmp_path / "out" / "figures").iterdir()}

@@ -24,7 +24,7 @@ def test_status_of_a_sweep(law, tmp_path, capsys):
         entry.unlink()
     assert told(capsys, out)[0] == "runs: 1 of 6 done, 1 failed"
     law('[sweep]\n"law.x" = "1 m to 5 m by 1 m"\n')
-    run_study(load_study(path), out, 1)
+    run_study(load_study(path), out, 1, overwrite=True)
     assert told(capsys, out) == [
         "runs: 6 of 6 done, 0 failed",
         "variants: 5 of 5 have all their runs, 0 failed",
