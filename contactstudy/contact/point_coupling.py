@@ -18,6 +18,7 @@ import numpy as np
 
 from contactstudy.arrays import Array, BoolArray, IntArray
 from contactstudy.contact.laws import Law, MovingForce, point_forces
+from contactstudy.contact.many_contacts import FEWEST, AttachedMany
 from contactstudy.contact.two_directions import forces_in_two_directions
 from contactstudy.dynamics.banded import Factor
 from contactstudy.dynamics.columns import LocalColumns, add_columns, compliance
@@ -83,9 +84,10 @@ class PointCoupling:
     def start(self) -> None:
         """No state."""
 
-    def attached(self, factor: Factor, scale: float) -> "AttachedPoint":
+    def attached(self, factor: Factor, scale: float) -> "AttachedPoint | AttachedMany":
         """Join to a system."""
-        return AttachedPoint(self, factor, scale)
+        made = AttachedPoint if len(self.static_loads) < FEWEST else AttachedMany
+        return made(self, factor, scale)
 
     def forces(self, step: int, compliance: Array, free_gap: Array) -> Array:
         """Forces (nc,) at the end of a step, for W and g*."""

@@ -118,7 +118,7 @@ class Factor:
             nonzero = np.flatnonzero(x)
             if len(nonzero):
                 first, last = (nonzero[[0, -1]] - width) // BLOCK
-                solve_near(blocks, x, first, last + 1)
+                solve_near(blocks, x, first, last + 1, 1e-20)
         return columns[:, width : width + self.n].T
 
 
@@ -199,11 +199,11 @@ def _backward(blocks: Blocks, x: Array, first: int, stop: int) -> None:
 
 
 @compiled
-def solve_near(blocks: Blocks, x: Array, first: int, last: int) -> tuple[int, int]:
+def solve_near(blocks: Blocks, x: Array, first: int, last: int, cut: float) -> tuple[int, int]:
     """Solve for a load on blocks first .. last - 1 only; which blocks are touched.
 
     Nothing happens before the first loaded block on the way down, and both sweeps end where
-    all that the next block sees has fallen 20 decades below the largest value: with the inertia
+    all that the next block sees has fallen below `cut` of the largest value: with the inertia
     of a short time step a load is felt some metres away. Touched are blocks low .. high - 1, and
     as many places of x below them as `left` is wide.
     """
@@ -211,13 +211,13 @@ def solve_near(blocks: Blocks, x: Array, first: int, last: int) -> tuple[int, in
     low, high = first, last
     _forward(blocks, x, first, last)
     largest = _largest(x, width + first * 8, width + last * 8)
-    while high < n_blocks and _largest(x, high * 8, high * 8 + width) > 1e-20 * largest:
+    while high < n_blocks and _largest(x, high * 8, high * 8 + width) > cut * largest:
         stop = min(high + 8, n_blocks)
         _forward(blocks, x, high, stop)
         high = stop
     _backward(blocks, x, first, high)
     largest = _largest(x, first * 8, width + high * 8)
-    while low > 0 and _largest(x, low * 8, low * 8 + width) > 1e-20 * largest:
+    while low > 0 and _largest(x, low * 8, low * 8 + width) > cut * largest:
         stop = max(low - 8, 0)
         _backward(blocks, x, stop, low)
         low = stop

@@ -40,10 +40,13 @@ class LocalColumns:
     ----------
     memory : float
         Bytes beyond which columns that are not asked for at the moment are dropped.
+    cut : float
+        In place of `CUT`.
     """
 
-    def __init__(self, factor: Factor, memory: float = 128e6) -> None:
+    def __init__(self, factor: Factor, memory: float = 128e6, cut: float = CUT) -> None:
         self._factor, self._most, n = factor, int(memory / 8), factor.n
+        self._cut = cut
         n_blocks, _, width = factor.blocks.left.shape
         self._work = np.zeros(width + 8 * n_blocks)
         self._columns = Columns(
@@ -59,7 +62,9 @@ class LocalColumns:
         begin = self._columns.begin
         while (begin[dofs] < 0).any():
             missing = np.unique(dofs[begin[dofs] < 0])
-            self._used = _fill(self._factor.blocks, missing, self._columns, self._used, self._work)
+            self._used = _fill(
+                self._factor.blocks, missing, self._columns, self._used, self._work, self._cut
+            )
             if (begin[missing] < 0).any():
                 self._make_room(np.unique(dofs))
         return self._columns
@@ -95,7 +100,7 @@ class LocalColumns:
 
 
 @compiled
-def _fill(blocks: Blocks, dofs: IntArray, columns: Columns, used: int, x: Array) -> int:
+def _fill(blocks: Blocks, dofs: IntArray, columns: Columns, used: int, x: Array, cut: float) -> int:
     """Compute the columns of dofs one by one as long as there is room; how much is used then.
 
     x is zero, as long as the factor's blocks and below them as many places as they are wide.
@@ -104,14 +109,14 @@ def _fill(blocks: Blocks, dofs: IntArray, columns: Columns, used: int, x: Array)
     before, n = blocks.left.shape[2], len(first)
     for dof in dofs:
         x[before + dof] = 1.0
-        low, high = solve_near(blocks, x, dof // 8, dof // 8 + 1)
+        low, high = solve_near(blocks, x, dof // 8, dof // 8 + 1, 1e-2 * cut)
         start, stop = before + low * 8, before + min(high * 8, n)
         largest = 0.0
         for k in range(start, stop):
             largest = max(largest, abs(x[k]))
-        while stop > start + 1 and abs(x[stop - 1]) < CUT * largest:
+        while stop > start + 1 and abs(x[stop - 1]) < cut * largest:
             stop -= 1
-        while stop > start + 1 and abs(x[start]) < CUT * largest:
+        while stop > start + 1 and abs(x[start]) < cut * largest:
             start += 1
         fits = used + stop - start <= len(values)
         if fits:

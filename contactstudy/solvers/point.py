@@ -101,7 +101,9 @@ def point_contact(
         integrator = generalised_alpha(RIGID_SPECTRAL_RADIUS) if rigid else average_acceleration()
     discrete = _discretised(track, vehicle) if isinstance(track, Track) else track
     raise_if(not_discrete(discrete))
-    problems = journey.problems_on(discrete.track, vehicle) + problems_of_rails(discrete, vehicle)
+    problems = journey.problems_on(discrete.track, vehicle) + problems_of_rails(
+        discrete, vehicle, law
+    )
     problems += positive("lateral_stiffness", lateral_stiffness, "N/m")
     problems += _law_problems(law, contact_filter, discrete.direction, integrator)
     for observer in observers:
@@ -128,10 +130,12 @@ def _discretised(track: Track, vehicle: Vehicle) -> DiscreteTrack:
     return StructureTrack(track, planar="Y" not in vehicle.contact_directions)
 
 
-def problems_of_rails(track: DiscreteTrack, vehicle: Vehicle) -> list[str]:
+def problems_of_rails(track: DiscreteTrack, vehicle: Vehicle, law: object) -> list[str]:
     """Complaints about a vehicle with contacts that the track's rails cannot have."""
     if not isinstance(track, StructureTrack):
         return vehicle.problems_on_one_rail()
+    if track.planar and not vehicle.planar and isinstance(law, RigidContact):
+        return ["law = RigidContact: both wheels of a wheelset are one on a planar track"]
     if track.planar and "Y" in vehicle.contact_directions:
         return ["vehicle: has lateral contacts; a planar track moves vertically only"]
     if not track.planar and vehicle.planar:

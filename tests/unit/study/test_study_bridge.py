@@ -141,6 +141,10 @@ def test_backward_needs_a_bridge():
         parse_study("ground", {"runs": {"one": RUN | {"travel": "backward"}}})
 
 
+def test_rigid_wheels_on_both_rails_as_one_are_refused():
+    refused("runs.one.k_r", "both wheels of a wheelset are one", run={"k_r": "rigid"})
+
+
 def test_backward_over_a_defect_is_refused():
     with pytest.raises(InputError, match=r'must be "forward" with irregularity.rail_defect'):
         parse_study(

@@ -66,6 +66,9 @@ def problems_of_runs(
         if not isinstance(run, PointRun) or run.needs_solid:
             yield f"runs.{name}: needs a meshed rail; the rails of a bridge are beams"
             continue
+        if run.rigid and planar and not vehicle.planar:
+            allowed = "must give way on a planar bridge, where both wheels of a wheelset are one"
+            yield complaint(f"runs.{name}.k_r", run.k_r, allowed)
         if run.travel == "backward" and irregularity is not None and irregularity.rail_defect:
             yield f'runs.{name}.travel: must be "forward" with irregularity.rail_defect'
         for key, holds in {
