@@ -12,9 +12,11 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.backends.backend_pdf import FigureCanvasPdf
 from matplotlib.figure import Figure
+from matplotlib.ticker import LogFormatterSciNotation
 
 from contactstudy.files import writing
 from contactstudy.plot.fonts import families
+from contactstudy.plot.text import tick
 
 # Width of the text block of the A4 report: figures are placed unscaled, so their fonts are
 # the size given here.
@@ -75,6 +77,10 @@ _RC: Any = {
 }
 
 
+_RAISED = "DejaVu Serif"
+"""Has the raised digits and minus that the other lacks."""
+
+
 @dataclass(frozen=True)
 class LineStyle:
     """How one run is drawn, the same in every figure: line, points and bars, width in points.
@@ -124,7 +130,7 @@ def figure_style(text: str = "") -> Iterator[None]:
         warnings.filterwarnings("ignore", "Glyph .* missing")  # `fonts.remark` has said so
         matplotlib.rcdefaults()
         matplotlib.rcParams.update(_RC)
-        matplotlib.rcParams["font.family"] = [_RC["font.family"], *families(text)]
+        matplotlib.rcParams["font.family"] = [_RC["font.family"], _RAISED, *families(text)]
         yield
 
 
@@ -143,6 +149,7 @@ def save(figure: Figure, folder: Path, name: str) -> list[Path]:
 
     Equal figures give equal bytes: no creation date, no program version in the files.
     """
+    plain_powers(figure)
     # The layout is found once, not again for each format; it does not depend on the format. The
     # canvases write the same bytes as `Figure.savefig`, which draws everything once more each time.
     layout = figure.get_layout_engine()
@@ -157,6 +164,31 @@ def save(figure: Figure, folder: Path, name: str) -> list[Path]:
         figure.set_dpi(PNG_DPI)
         FigureCanvasAgg(figure).print_png(stream, metadata={"Software": None})
     return [pdf, png]
+
+
+class _Powers(LogFormatterSciNotation):
+    """Ticks of a logarithmic axis as "2·10⁻³": plain text, for texts of figures are no markup."""
+
+    def __call__(self, x: float, pos: int | None = None) -> str:
+        """The text of a tick, "" for one that has none."""
+        return tick(x) if super().__call__(x, pos) else ""
+
+
+def plain_powers(figure: Figure) -> None:
+    """Give all logarithmic axes of a figure ticks without markup."""
+    axes = [axes for one in figure.axes for axes in (one, *one.child_axes)]
+    for axis in (axis for one in axes for axis in (one.xaxis, one.yaxis)):
+        for formatter, replace in (
+            (axis.get_major_formatter(), axis.set_major_formatter),
+            (axis.get_minor_formatter(), axis.set_minor_formatter),
+        ):
+            if type(formatter) is LogFormatterSciNotation:
+                replace(
+                    _Powers(
+                        labelOnlyBase=formatter.labelOnlyBase,
+                        minor_thresholds=formatter.minor_thresholds,
+                    )
+                )
 
 
 def map_axes(axes: Axes, x_label: str, y_label: str = "") -> None:

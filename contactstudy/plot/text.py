@@ -53,6 +53,15 @@ def exact(value: float, digits: int = 6) -> str:
     return _trimmed(text)
 
 
+def tick(value: float) -> str:
+    """A value beside a logarithmic axis: "20", and powers of ten beyond 0.001 and 10,000."""
+    if 1e-3 <= abs(value) < 1e4:
+        return exact(value)
+    mantissa, exponent = f"{value:.5e}".split("e")
+    power, short = f"10{_superscript(int(exponent))}", _trimmed(mantissa)
+    return power if short == "1" else f"{short}·{power}"
+
+
 def pretty_unit(unit: str) -> str:
     """Unit with raised dots and exponents."""
     raised = re.sub(r"\^(\d+)", lambda match: _superscript(int(match[1])), unit)

@@ -11,7 +11,7 @@ from contactstudy.figures.patch import bilinear, patch_of
 from contactstudy.figures.press import own_give
 from contactstudy.irregularity.shown import SpectrumCurve
 from contactstudy.plot.style import figure_style, run_styles, save
-from contactstudy.plot.text import capital, exact, label, number
+from contactstudy.plot.text import capital, exact, label, number, tick
 from contactstudy.study.kinds.passage.drawings import drawings
 
 LABELS = {
@@ -110,6 +110,22 @@ def test_writing_makes_every_figure_twice_and_nothing_else(bare, tmp_path):
     assert sorted(p.name for p in (tmp_path / "figures").iterdir()) == sorted(
         p.name for p in written
     )
+
+
+def test_ticks_of_logarithmic_axes_are_no_markup(by_name, tmp_path):
+    # a user's text is drawn as it is, and so is a tick
+    with figure_style():
+        figure = by_name["irregularity_spectrum"].draw()
+        save(figure, tmp_path, "ticks")
+    axes = figure.axes[0]
+    texts = [t.get_text() for t in (*axes.get_xticklabels(), *axes.get_yticklabels())]
+    assert "10⁻⁹" in texts and {"0.1", "1", "10"} <= set(texts)
+    assert not any("$" in text for text in texts)
+    (second,) = axes.child_axes
+    assert not any("$" in t.get_text() for t in second.get_xticklabels(which="both"))
+    assert [tick(v) for v in (0.02, 3e-5, 2e4, 1.0, 1e-3)] == [
+        "0.02", "3·10⁻⁵", "2·10⁴", "1", "0.001",
+    ]  # fmt: skip
 
 
 def test_half_model_pressure_is_mirrored(results):
