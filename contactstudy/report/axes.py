@@ -121,7 +121,7 @@ def _orders(results: StudyResults, design: str) -> list[str]:
     expected, why = attrs.get("expected_order"), attrs.get("why", "")
     if not attrs["refined"] or not (expected or why):
         return []
-    head = f"Expected order: {expected:g}" if expected else "No order is expected"
+    head = f"Expected order {expected:g}" if expected else "No order is expected"
     told = f"{head}: {why}." if why else f"{head}."
     for one in shown(results):
         if expected and one.data.attrs["design"] == design and one.name.startswith("from_finest"):

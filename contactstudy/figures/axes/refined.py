@@ -47,7 +47,10 @@ def _draw(quantity: Shown, lines: list[Line]) -> Figure:
             gain = np.exp(np.mean(np.log(error[good]) - line.order * np.log(h[good])))
             axes.plot(fine, gain * fine**line.order, **style.line)
     axes.set(xscale="log", yscale="log", ylabel="Distance from the limit", title=quantity.title)
-    axes.set_xlabel(f"1 / {along.title}" if along.at[0] < along.at[-1] else along.title)
+    axes.set_xticks(h.tolist(), [name.partition(" ")[0] for name in along.names])
+    axes.set_xticks([], minor=True)
+    inverse = along.at[0] < along.at[-1]
+    axes.set_xlabel(f"{along.title}, placed at the inverse" if inverse else along.title)
     figure_legend(figure, axes)
     return figure
 

@@ -319,7 +319,7 @@ def test_what_a_refinement_says_of_its_keys(law, tmp_path):
     assert (x.expected, x.why, scale.expected, scale.why) == (2.0, "", None, "a factor")
     results = swept(path, tmp_path / "out")
     of_x, of_scale = (str(p["blocks"][0]) for p in parts(results))
-    assert "Expected order: 2." in of_x and "No order is expected: a factor." in of_scale
+    assert "Expected order 2." in of_x and "No order is expected: a factor." in of_scale
     (left,) = load_study(path, {"law.x": 1.0}).designs
     assert left.refined == "law.scale"
     wrong = text.replace('"law.scale" = "a', '"law.word" = "a').replace("= 2 }", '= "two" }')
