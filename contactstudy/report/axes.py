@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -10,14 +11,16 @@ import numpy as np
 from contactstudy.figures import axes
 from contactstudy.plot.text import capital, counted, label
 from contactstudy.report.blocks import Block, bullets, figure, table, text
+from contactstudy.report.parameters import origin
 from contactstudy.report.quantity import quantity
 from contactstudy.study.axes.axis import axis_of, title_of
 from contactstudy.study.axes.convergences import convergences
 from contactstudy.study.axes.dataset import FAILURE
 from contactstudy.study.axes.shown import shown
 from contactstudy.study.axes.tables import tables
-from contactstudy.study.kind import Part
+from contactstudy.study.kind import Part, find_kind
 from contactstudy.study.results import StudyResults
+from contactstudy.validation import entries
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -57,7 +60,7 @@ def subject(results: StudyResults) -> list[Block]:
     runs = results.config.get("runs", {})
     listed = [
         f"{label(name)}: "
-        + ", ".join(_told(results, f"runs.{name}.{k}", v) for k, v in run.items())
+        + ", ".join(_told(results, f"runs.{name}.{k}", v) for k, v in chosen(results, run).items())
         for name, run in runs.items()
     ]
     rows = [
@@ -68,6 +71,17 @@ def subject(results: StudyResults) -> list[Block]:
     columns = ["Key", "Values", "How"]
     varied = table(columns, rows, "Keys that are varied.", 3) | {"size": 8.5}
     return [*([bullets(listed)] if listed else []), varied]
+
+
+def chosen(results: StudyResults, run: Mapping[str, Any]) -> dict[str, Any]:
+    """What a run has that is no default, and what tells what it is."""
+    known: dict[str, Any] = {}
+    first = next(iter(run))
+    kind = find_kind(results.kind)
+    for inner in kind.inner_tables.values():
+        known |= entries(inner)
+    told = {first, *kind.telling}
+    return {k: v for k, v in run.items() if k in told or origin(known.get(k), v) != "default"}
 
 
 def _told(results: StudyResults, key: str, value: Any) -> str:

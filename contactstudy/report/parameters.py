@@ -40,11 +40,11 @@ def parameter_tables(results: StudyResults) -> list[Block]:
             known, rows = entries(kind.tables[section]), []
             for key, value in values.items():
                 shown, unit = _shown(value, results.units.get(f"{section}.{key}", ""))
-                origin = _origin(known.get(key), value)
+                given_by = origin(known.get(key), value)
                 if f"{section}.{key}" in varied:
-                    shown, unit, origin = "varied", "", "study"
+                    shown, unit, given_by = "varied", "", "study"
                 name = _NAMES.get(key, key.replace("_", " "))
-                rows.append([name, shown, unit, origin])
+                rows.append([name, shown, unit, given_by])
             columns = ["Parameter", "Value", "Unit", "Given by"]
             made.append(table(columns, rows, f"{title}.", 1) | {"size": 8.5})
             made[-1]["columns"][2]["align"] = made[-1]["columns"][3]["align"] = "left"
@@ -59,7 +59,7 @@ def _shown(value: Any, unit: str) -> tuple[str, str]:
     return quantity(value, unit)
 
 
-def _origin(entry: Entry | None, value: Any) -> str:
+def origin(entry: Entry | None, value: Any) -> str:
     """Whether a value is the program's default or was set by the study."""
     parameter = entry.parameter if entry else None
     if parameter is None:

@@ -154,6 +154,8 @@ class Kind(ABC):
     inner_tables: ClassVar[Mapping[str, Any]] = {}
     #: Title -> tables of further files that a study names, for the reference of keys.
     file_tables: ClassVar[Mapping[str, Mapping[str, Any]]] = {}
+    #: Keys of an inner table that say what it is, and are shown where they are defaults too.
+    telling: ClassVar[Sequence[str]] = ()
     #: Table -> title of its parameters in the report, which shows no others.
     titles: ClassVar[Mapping[str, str]] = {}
 

@@ -46,6 +46,7 @@ class PassageKind(Kind):
     tables = SECTIONS
     inner_tables: ClassVar = {"runs": SOLVERS}
     file_tables: ClassVar = {"Vehicle files": {"car": Car}}
+    telling = ("rail", "law", "k_r")
     titles: ClassVar = {
         "irregularity": "Irregularity",
         "track": "Track (per rail)",

@@ -63,6 +63,8 @@ def report(results: StudyResults, timings: bool = False) -> Report:
 def _topics(results: StudyResults) -> list[str]:
     """Sections of the model that the study needs."""
     found = {str(run.get("solver")) for run in results.config.get("runs", {}).values()}
+    if found:
+        found.add("motion")
     if results.config.get("irregularity", {}).get("spectrum") not in _NOT_GENERATED:
         found.add("irregularity")
     return sorted(found | ({"errors"} if results.reference else set()))
