@@ -31,6 +31,7 @@ from contactstudy.study.results import (
 )
 from contactstudy.study.status import write_plan
 from contactstudy.study.study import Study
+from contactstudy.workers import InThisProcess
 
 _WAITING = "{}: {} is at work here; this one goes on when it has ended"
 
@@ -94,10 +95,16 @@ def compute_study(
     reporter: Reporter | None = None,
     quick: bool = False,
     scheduler: str = "",
+    here: bool = False,
 ) -> StudyResults:
-    """As `run_study`, but only the finished runs are kept, in ``folder/runs``."""
+    """As `run_study`, but only the finished runs are kept, in ``folder/runs``.
+
+    With `here` all is computed in this process, which small runs one after another take less time
+    in than in new ones.
+    """
     reporter = reporter or Quiet()
     with _executor(workers, scheduler, reporter) as executor:
+        executor = InThisProcess(lambda message: None) if here else executor
         plan = _planned(study, folder, reporter, quick)
         return _computed(plan, workers, reporter, executor)
 

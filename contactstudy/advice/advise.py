@@ -1,93 +1,107 @@
-"""Run all schemes and surface contact on one sample; the cheapest that keeps a bound."""
+"""The cheapest point scheme that keeps a bound: chosen on one sample, proven on another."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
 
-from contactstudy.advice.schemes import FAMILIES, REFERENCE, Scheme, schemes
-from contactstudy.driver import compute_study
+from contactstudy.advice.reasons import Waves, waves
+from contactstudy.advice.samples import Samples, Varied, samples
+from contactstudy.advice.schemes import FAMILIES, Scheme, schemes
+from contactstudy.advice.trials import Trials
 from contactstudy.exceptions import InputError
 from contactstudy.reporter import Reporter
 from contactstudy.study.kind import Study
-from contactstudy.study.kinds.passage.runs import SOLVERS
 from contactstudy.study.kinds.passage.schema import Study as Passage
-from contactstudy.study.results import StudyResults
-from contactstudy.validation import complaint, raise_if, read
+from contactstudy.study.loading import base_of
+from contactstudy.validation import complaint, raise_if
 
 MEASURES: Mapping[str, tuple[str, str]] = {
-    "dynamic": ("relative_l2_dynamic", "the dynamic part of the contact force"),
-    "total": ("relative_l2", "the contact force"),
+    "dynamic": ("dynamic", "the dynamic part of the contact force"),
+    "total": ("total", "the contact force"),
 }
-"""Which error is bounded -> its norm, and of what it is."""
-MARGIN = 0.7
-"""What the error on one sample may be, of the bound.
-
-The error of one scheme varies between samples: the default case's best beam is 2.1 to 2.9 % off
-over seeds. A scheme at 0.7 of the bound on one sample therefore keeps it on another.
-"""
+"""Which error is bounded -> the part of the force, and what it is called."""
+_GROUP = 8  # schemes that are tried at once
 
 
 @dataclass(frozen=True)
 class Tried:
-    """A scheme and what became of it: relative error, and dofs times steps."""
+    """A scheme and what became of it.
+
+    Attributes
+    ----------
+    dofs, steps : int
+    seconds : float
+        What it takes, about: by this schemes are ordered.
+    error : float
+        Relative, on the study's own sample; nan where it failed.
+    expected, limit : float or None
+        Mean over samples, and what the error on another sample stays below; None where it was
+        out of the question already.
+    proof : float or None
+        Error on the other sample.
+    waves : Waves or None
+        Where most of the error lies.
+    failure : str
+        Why it could not be run.
+    """
 
     name: str
     scheme: Scheme
-    error: float
     dofs: int
     steps: int
-
-    @property
-    def work(self) -> int:
-        """Size of the run by which schemes are ordered."""
-        return self.dofs * self.steps
+    seconds: float
+    error: float = float("nan")
+    expected: float | None = None
+    limit: float | None = None
+    proof: float | None = None
+    waves: Waves | None = None
+    failure: str = ""
 
 
 @dataclass(frozen=True)
 class Advice:
-    """What was found: all schemes from the cheapest, and the one that keeps the bound, if any."""
+    """What was found.
+
+    Attributes
+    ----------
+    tried : tuple of Tried
+        From the cheapest to the answer, or to the dearest where there is none.
+    answer : Tried or None
+    reference_error : float
+        Of surface contact itself, by a coarser mesh and time step.
+    reference_seconds : float
+        What surface contact takes, about.
+    samples : tuple of str
+        What the study's own sample and the one of the proof are called; empty if there is one.
+    lost : float
+        Share of the way on which surface contact loses contact.
+    time_step : float
+        Of the journey [s].
+    stiffness : float
+        Of the answer's contact at the static load [N/m]; nan without one.
+    patch : float
+        Length over which its filter averages [m], 0 without.
+    """
 
     study: str
     bound: float
     measure: str
     tried: tuple[Tried, ...]
     answer: Tried | None
-    #: The contact stiffness [N/m] that "tangent" stands for.
-    k_r: float | None
-    results: StudyResults
+    reference_error: float
+    reference_seconds: float
+    samples: tuple[str, ...]
+    lost: float
+    time_step: float
+    stiffness: float = float("nan")
+    patch: float = 0.0
 
-    def best(self, family: str) -> Tried:
-        """The most accurate scheme of a family."""
-        return min((t for t in self.tried if t.scheme.family == family), key=lambda t: t.error)
-
-    def sentences(self) -> list[str]:
-        """The answer, why nothing cheaper, and how sure it is."""
-        of = MEASURES[self.measure][1]
-        wanted = f"within {100 * self.bound:g} % of {of}"
-        if self.answer is None:
-            best = min(self.tried, key=lambda t: t.error)
-            told = [
-                f"No scheme keeps {wanted} with a margin: the best, {best.scheme.words}, is "
-                f"{100 * best.error:.2g} % off. Surface contact itself is needed."
-            ]
-        else:
-            told = [
-                f"The cheapest scheme that keeps {wanted}: {self.answer.scheme.words}. It is "
-                f"{100 * self.answer.error:.2g} % off surface contact with a modal wheel on this "
-                f"sample; at most {100 * MARGIN * self.bound:.3g} % was asked for, since the error "
-                "varies from sample to sample."
-            ]
-        if self.k_r is not None:
-            told.append(f"The tangent of the static press is k_r = {self.k_r / 1e9:.4g} GN/m.")
-        for best in map(self.best, FAMILIES):
-            if best.error > MARGIN * self.bound:
-                told.append(
-                    f"Not enough: {best.scheme.words}, at best {100 * best.error:.2g} % off."
-                )
-        return told
+    def best(self, family: str) -> Tried | None:
+        """The most accurate scheme of a family that was tried."""
+        own = [t for t in self.tried if t.scheme.family == family and t.error == t.error]
+        return min(own, key=lambda t: t.error, default=None)
 
 
 def advise(
@@ -100,13 +114,16 @@ def advise(
 ) -> Advice:
     """Find the cheapest point scheme whose force error stays below a bound.
 
-    All schemes of `contactstudy.advice.schemes` and surface contact with a modal wheel run over
-    the study's own track and irregularity; the study's own runs are left out.
+    The schemes of `contactstudy.advice.schemes` run over the study's own track and irregularity,
+    the cheapest first; the study's own runs and axes are left out. The first one is taken whose
+    error against surface contact with a modal wheel, with what it may be on another sample
+    (`contactstudy.advice.samples`) and with the reference's own error, stays below the bound, and
+    which keeps it on another sample too.
 
     Parameters
     ----------
     study : Study
-        A passage.
+        A passage; of one with axes its base.
     bound : float
         Relative L2 error of the contact force, against surface contact behind the fade-in.
     folder : Path
@@ -117,27 +134,95 @@ def advise(
     Raises
     ------
     InputError
-        For a study of another kind or a bound outside 0..1.
+        For a study of another kind, a bound outside 0..1, or a force without the part measured.
+    NumericalError
+        When surface contact broke down.
     """
+    base = base_of(study)
     problems = []
     if not 0.0 < bound < 1.0:
         problems.append(complaint("bound", bound, "must lie between 0 and 1 (5 % is 0.05)"))
     if measure not in MEASURES:
         problems.append(complaint("measure", measure, f"must be one of: {', '.join(MEASURES)}"))
-    if not isinstance(study, Passage):
+    if not isinstance(base, Passage):
         problems.append(f"study {study.name}: must be a passage, with a journey over a track")
     raise_if(problems)
-    assert isinstance(study, Passage)
-    found = schemes(study.journey.time_step)
-    runs = {REFERENCE: _run(REFERENCE, {"solver": "surface", "wheel": "modal"})}
-    runs |= {name: _run(name, scheme.table) for name, scheme in found.items()}
-    solid = replace(study.solid, pressure_at=(), animation_frames=0, animation_span=())
-    asked = replace(study, solid=solid, runs=runs, reference=REFERENCE, companions=())
-    results = compute_study(asked, folder, workers, reporter)
-    tried = tuple(sorted((_tried(results, n, s, measure) for n, s in found.items()), key=_order))
-    answer = next((t for t in tried if t.error <= MARGIN * bound), None)
-    k_r = results.runs["tangent_4_1"].attrs.get("k_r")
-    return Advice(study.name, bound, measure, tried, answer, k_r, results)
+    assert isinstance(base, Passage)
+    trials = Trials.of(base, MEASURES[measure][0], folder, workers, reporter)
+    doubt = trials.reference_error()
+    if doubt != doubt:
+        raise InputError(
+            f"study {study.name}: {MEASURES[measure][1]} is zero: there is nothing to compare"
+        )
+    over, tried, answer = samples(base), list[Tried](), None
+    order = _by_cost(trials, schemes(base.journey.time_step))
+    for k in range(0, len(order) if doubt < bound else 0, _GROUP):
+        answer = _first(trials, order[k : k + _GROUP], bound - doubt, over, tried)
+        if answer is not None:
+            break
+    table = {} if answer is None else trials.contact(answer.name, answer.scheme)
+    return Advice(
+        study.name,
+        bound,
+        measure,
+        tuple(tried),
+        answer,
+        doubt,
+        trials.seconds(),
+        () if over is None else (over.label(0), over.label(1)),
+        trials.lost(),
+        base.journey.time_step,
+        **table,
+    )
+
+
+def _first(
+    trials: Trials, group: list[Tried], within: float, over: Samples | None, tried: list[Tried]
+) -> Tried | None:
+    """The first scheme of a group that stays within a bound; all that were tried are noted."""
+    runs, failures = trials.run({t.name: t.scheme for t in group})
+    reference = runs[trials.REFERENCE]
+    found = [
+        replace(t, failure=failures[t.name])
+        if t.name in failures
+        else replace(
+            t,
+            error=trials.error(runs[t.name], reference),
+            waves=waves(runs[t.name], reference, trials.start),
+        )
+        for t in group
+    ]
+    good = {t.name: t.scheme for t in found if t.error <= within}
+    varied = trials.differences(good, over) if over is not None and good else {}
+    for one in found:
+        checked = one
+        if one.name in varied and over is not None:
+            checked = _elsewhere(trials, one, within, over, varied[one.name])
+        tried.append(checked)
+        sure = (checked.error, *(e for e in (checked.limit, checked.proof) if e is not None))
+        if all(e <= within for e in sure):
+            return checked
+    return None
+
+
+def _elsewhere(trials: Trials, one: Tried, within: float, over: Samples, varied: Varied) -> Tried:
+    """A scheme with what its error may be on other samples, and is on the next one."""
+    errors, proof = [one.error], None
+    if varied.limit(errors) <= within:
+        proof = trials.proof(one.name, one.scheme, over)
+        errors.append(proof)
+    return replace(one, expected=varied.expected(errors), limit=varied.limit(errors), proof=proof)
+
+
+def _by_cost(trials: Trials, found: Mapping[str, Scheme]) -> list[Tried]:
+    """Schemes from the cheapest on, of equally dear ones the simpler first."""
+    sized = [
+        Tried(name, scheme, *size)
+        for name, scheme in found.items()
+        if (size := trials.size(name, scheme)) is not None
+    ]
+    families = list(FAMILIES)
+    return sorted(sized, key=lambda t: (t.seconds, families.index(t.scheme.family)))
 
 
 def read_bound(text: str) -> float:
@@ -150,25 +235,3 @@ def read_bound(text: str) -> float:
     if rest.strip() or not 0.0 < value < 1.0:
         raise InputError(complaint("bound", text, 'must lie between 0 and 100 %, as "5 %" or 0.05'))
     return value
-
-
-def _run(name: str, table: Mapping[str, Any]) -> Any:
-    made, problems = read(SOLVERS, table, f"runs.{name}")
-    raise_if(problems)
-    return made
-
-
-def _tried(results: StudyResults, name: str, scheme: Scheme, measure: str) -> Tried:
-    error = results.metrics["comparisons"][name]["contact_force"][MEASURES[measure][0]]
-    if error is None:
-        raise InputError(
-            f"study {results.name}: the force of surface contact has no part to compare with "
-            f"({MEASURES[measure][1]} is zero)"
-        )
-    run = results.metrics["runs"][name]
-    return Tried(name, scheme, float(error), int(run["dofs"]), int(run["steps"]))
-
-
-def _order(tried: Tried) -> tuple[int, int]:
-    """Of equally large runs the simpler scheme comes first."""
-    return tried.work, list(FAMILIES).index(tried.scheme.family)

@@ -4,7 +4,7 @@ from typing import Literal
 
 from cyclopts import App
 
-from contactstudy.commands.advising import advise
+from contactstudy.commands.advising import advise, verify_advice
 from contactstudy.commands.asking import check, status
 from contactstudy.commands.exporting import export
 from contactstudy.commands.listing import cache, keys, studies
@@ -41,6 +41,7 @@ _COMMANDS = (
     diff,
     status,
     verify,
+    verify_advice,
     export,
     studies,
     keys,

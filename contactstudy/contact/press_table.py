@@ -6,7 +6,7 @@ table is a local straight line through ``approach / F^(2/3)`` over ``F^(1/3)``, 
 law is constant; the weights of the patch are smoothed in the same way.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -15,8 +15,8 @@ from contactstudy.arrays import Array
 from contactstudy.contact.augmented import Enforcement
 from contactstudy.contact.complementarity import PressedForces
 from contactstudy.contact.press import PRESS_LOADS, press_curve, press_stiffness
-from contactstudy.exceptions import InputError, NumericalError
-from contactstudy.geometry.points import EDGE_KEYS, ContactPoints
+from contactstudy.exceptions import InputError
+from contactstudy.geometry.points import EDGE_KEYS, ContactPoints, EdgeReachedError
 
 LARGEST = 3.0
 """Largest load of a table, in static loads."""
@@ -45,6 +45,8 @@ class PressTable:
         Share of a small load that is added to the static one at each of the contact points.
     tangent, secant : ndarray ()
         Stiffness at the static load in N/m, see `contact.press.press_stiffness`.
+    zone : ndarray (2,)
+        Half length and half width of the wheel's finely meshed zone in m; nan if unknown.
     """
 
     recipe: Any
@@ -55,6 +57,7 @@ class PressTable:
     shares: Array
     tangent: Array
     secant: Array
+    zone: Array = field(default_factory=lambda: np.full(2, np.nan))
 
     def without(self, give: float) -> "PressTable":
         """The table of bodies that are stiffer by a linear give [m/N], as that of wheel modes."""
@@ -80,7 +83,7 @@ def press_table(
 
     Raises
     ------
-    NumericalError
+    EdgeReachedError
         If it does so at the static load.
     """
     unit, width = load ** (1 / 3), _WINDOW * load ** (1 / 3)
@@ -89,9 +92,10 @@ def press_table(
     edges = [points.edge_reached(solution.active) for solution in curve.solutions]
     n = next((k for k, edge in enumerate(edges) if edge), len(root))
     if n < len(root) and root[n] < _LEAST * unit:
-        raise NumericalError(
+        raise EdgeReachedError(
             f"static press: the patch reaches the edge of the finely meshed zone {edges[n]} the "
-            f"rail at {1e-3 * root[n] ** 3:.4g} kN ({EDGE_KEYS[edges[n]]} is too small)"
+            f"rail at {1e-3 * root[n] ** 3:.4g} kN ({EDGE_KEYS[edges[n]]} is too small)",
+            edges[n],
         )
     root, solutions = root[:n], curve.solutions[:n]
     rows = np.linspace(_SMALLEST[1] * unit, root[-1], _ROWS)

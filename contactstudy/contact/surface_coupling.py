@@ -27,7 +27,7 @@ from contactstudy.contact.wheel_path import WheelPath
 from contactstudy.dynamics.banded import Factor
 from contactstudy.dynamics.stepper import ContactStep
 from contactstudy.exceptions import NumericalError
-from contactstudy.geometry.points import EDGE_KEYS
+from contactstudy.geometry.points import EDGE_KEYS, EdgeReachedError
 from contactstudy.geometry.search import CandidateList
 from contactstudy.track.meshed import MeshedTrack
 from contactstudy.track.stretch import SectionResponse
@@ -223,10 +223,11 @@ class AttachedSurface:
         if not way:
             return
         lines = points.wheel_y if way == "across" else points.wheel_x
-        raise NumericalError(
+        raise EdgeReachedError(
             f"contact patch reaches the edge of the finely meshed zone {way} the rail at "
             f"{self._where(step)}: the wheel's zone, {1e3 * lines[0]:.4g} to "
-            f"{1e3 * lines[-1]:.4g} mm, is too small ({EDGE_KEYS[way]})"
+            f"{1e3 * lines[-1]:.4g} mm, is too small ({EDGE_KEYS[way]})",
+            way,
         )
 
     def _where(self, step: int) -> str:

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from contactstudy.arrays import Array, BoolArray, IntArray
-from contactstudy.exceptions import InputError
+from contactstudy.exceptions import InputError, NumericalError
 from contactstudy.geometry.interpolation import Rows, grid_rows
 from contactstudy.geometry.placement import Geometry
 from contactstudy.geometry.pose import Pose
@@ -18,6 +18,20 @@ from contactstudy.geometry.quadrature import Quadrature, grid_facets, point_line
 
 EDGE_KEYS = {"along": "contact_half_length", "across": "contact_half_width"}
 """Way in which a patch reaches the edge of its points -> key that is too small."""
+
+
+class EdgeReachedError(NumericalError):
+    """A patch reaches the edge of its points.
+
+    Parameters
+    ----------
+    way : str
+        A key of `EDGE_KEYS`.
+    """
+
+    def __init__(self, message: str, way: str = "along") -> None:
+        super().__init__(message)
+        self.way = way
 
 
 @dataclass(frozen=True)

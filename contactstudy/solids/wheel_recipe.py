@@ -29,6 +29,9 @@ from contactstudy.validation import quantities as q
 COARSE, GROWTH = 0.012, 1.6
 """Largest element size of the section away from the tread in m, and ratio of neighbours."""
 
+LARGEST_ZONE = {"contact_half_length": 0.040, "contact_half_width": 0.023}
+"""Largest finely meshed tread along and across the rail, each half of it [m]."""
+
 FAR_STEP = np.pi / 15
 """Largest angle between two planes in rad away from the contact, enough for statics."""
 
@@ -82,7 +85,7 @@ class WheelRecipe(Parameters):
     def problems(self, key: Naming) -> list[str]:
         """Zones that cannot be meshed."""
         problems = []
-        for name, most in (("contact_half_length", 0.040), ("contact_half_width", 0.023)):
+        for name, most in LARGEST_ZONE.items():
             value = getattr(self, name)
             if not self.size <= value <= most:
                 least = f"{key('size')}, {self.size:g} m"

@@ -126,7 +126,7 @@ def _with_axes(
     try:
         study = source.load({})
         if quickly and not quick:
-            source.load(quickly)
+            source.load(quickly | given)
     except InputError as error:
         problems = [*problems, *error.problems]
     raise_if(problems + wrong)

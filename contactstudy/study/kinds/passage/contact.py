@@ -6,6 +6,8 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from contactstudy.contact.filters import ContactFilter, PatchMean, Trajectory
 from contactstudy.contact.laws import (
     ContactLaw,
@@ -23,6 +25,7 @@ from contactstudy.halfspace.hertz import HertzContact, contact_modulus, hertz_co
 from contactstudy.profiles.wheel_file import named_file_digest
 from contactstudy.solids.bodies import modes_body, rail_body, wheel_body
 from contactstudy.solids.cache import CachedBody, cached
+from contactstudy.solids.wheel_recipe import LARGEST_ZONE
 from contactstudy.solvers.at_rest import geometry_table
 from contactstudy.study.kinds.passage import build
 from contactstudy.study.kinds.passage.placing import geometry
@@ -30,6 +33,7 @@ from contactstudy.study.kinds.passage.runs import PointRun
 from contactstudy.study.kinds.passage.scan import PATHS as SCAN_PATHS
 from contactstudy.study.kinds.passage.schema import Study
 from contactstudy.study.kinds.passage.wheelset import PATHS as WHEELSET_PATHS
+from contactstudy.study.kinds.passage.zone import on_large_enough
 from contactstudy.track.bay import bay_body
 from contactstudy.track.rail import GivenRail, TabulatedRail
 from contactstudy.validation import multiple
@@ -73,10 +77,14 @@ def _press_body(study: Study, run: str) -> CachedBody[PressTable]:
 
 def pressed(recipe: PressRecipe) -> PressTable:
     """Press the bodies of a point run in the middle of a bay."""
-    study = recipe.study
-    track = build.solid_track(study, build.track(study))
-    contact = build.surface_contact(study, recipe.run)
-    return replace(geometry_table(track, contact, study.vehicle.static_load), recipe=recipe)
+
+    def compute(study: Study) -> PressTable:
+        track = build.solid_track(study, build.track(study))
+        contact = build.surface_contact(study, recipe.run)
+        table = geometry_table(track, contact, study.vehicle.static_load)
+        return replace(table, zone=np.array([getattr(study.solid, key) for key in LARGEST_ZONE]))
+
+    return replace(on_large_enough(recipe.study, compute), recipe=recipe)
 
 
 def _plain(study: Study, run: str) -> list[Any]:
@@ -179,7 +187,10 @@ def point_wheel(study: Study, run: str) -> PointWheel | None:
     """The wheel of a point run if its modes move."""
     if study.wheel(run) != "modal":
         return None
-    return PointWheel.of(build.surface_contact(study, run), cached(_press_body(study, run)))
+    table = cached(_press_body(study, run))
+    zone = dict(zip(LARGEST_ZONE, table.zone.tolist(), strict=True))
+    pressed = replace(study, solid=replace(study.solid, **zone))
+    return PointWheel.of(build.surface_contact(pressed, run), table)
 
 
 def _point(study: Study, run: str) -> PointRun:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from contactstudy.exceptions import ContactStudyError
 from contactstudy.executor import Progress, Task
 from contactstudy.solids.cache import CachedBody, cached, is_cached
+from contactstudy.solids.wheel_recipe import LARGEST_ZONE
 from contactstudy.solvers import observers
 from contactstudy.solvers.car_bodies import CarBodies
 from contactstudy.solvers.observers import Observer
@@ -16,6 +17,7 @@ from contactstudy.study.kinds.passage.roughness import irregularity_of, irregula
 from contactstudy.study.kinds.passage.runs import PointRun, SurfaceRun
 from contactstudy.study.kinds.passage.schema import Study
 from contactstudy.study.kinds.passage.twins import untwinned
+from contactstudy.study.kinds.passage.zone import on_large_enough
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -58,19 +60,23 @@ def _surface(study: Study, run: str, table: SurfaceRun, progress: Progress | Non
     from contactstudy.solvers.instants import Instants
     from contactstudy.solvers.surface import surface_contact
 
-    return surface_contact(
-        build.solid_track(study, build.track(study)),
-        build.surface_contact(study, run),
-        study.vehicle.vehicle(),
-        irregularity_of(study, table.irregularity == "smooth"),
-        build.journey(study, run),
-        observers=(
-            *_reports(progress),
-            Instants(study.solid.pressure_at),
-            Frames(build.frames_at(study)),
-        ),
-        integrator=table.method(),
-    )
+    def compute(study: Study) -> xr.Dataset:
+        data = surface_contact(
+            build.solid_track(study, build.track(study)),
+            build.surface_contact(study, run),
+            study.vehicle.vehicle(),
+            irregularity_of(study, table.irregularity == "smooth"),
+            build.journey(study, run),
+            observers=(
+                *_reports(progress),
+                Instants(study.solid.pressure_at),
+                Frames(build.frames_at(study)),
+            ),
+            integrator=table.method(),
+        )
+        return data.assign_attrs({key: getattr(study.solid, key) for key in LARGEST_ZONE})
+
+    return on_large_enough(study, compute)
 
 
 def _reports(progress: Progress | None) -> tuple[Observer, ...]:

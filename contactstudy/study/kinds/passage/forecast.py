@@ -93,10 +93,15 @@ def solid_dofs(study: Study, track: Track) -> int:
     return planes + cells * solid.internal_modes + below - held
 
 
+def size(study: Study, run: str) -> tuple[int, int, float]:
+    """Dofs and steps of a run, and the seconds it takes, about, in a process that runs already."""
+    found = _forecast(study, run, build.track(study))
+    return found.dofs, found.steps, found.seconds - START
+
+
 def seconds(study: Study, name: str) -> float:
     """Time that a run, or its smooth twin, will take in a process that runs already."""
-    owner, run = untwinned(study, name)
-    return _forecast(owner, run, build.track(owner)).seconds - START
+    return size(*untwinned(study, name))[2]
 
 
 def admit(study: Study, names: Sequence[str], reporter: Reporter) -> None:
