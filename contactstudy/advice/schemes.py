@@ -101,7 +101,7 @@ def schemes(time_step: float) -> dict[str, Scheme]:
             for elements in ELEMENTS if table["rail"] != "solid" else (0,):
                 mesh = {"elements_per_bay": elements} if elements else {}
                 name = f"{family}_{elements}_{multiple}" if elements else f"{family}_{multiple}"
-                found[name] = Scheme(family, table | mesh | step)
+                found[name] = Scheme(family, {**table, **mesh, **step})
     return found
 
 

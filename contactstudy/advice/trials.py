@@ -57,10 +57,16 @@ class Trials:
         """Of a study without its own runs; `part` of the force, total or dynamic."""
         solid = replace(study.solid, pressure_at=(), animation_frames=0, animation_span=())
         runs = {cls.REFERENCE: _run(cls.REFERENCE, {"solver": "surface", "wheel": "modal"})}
-        changed = {"solid": solid, "runs": runs, "reference": cls.REFERENCE, "companions": ()}
-        return cls(
-            replace(study, **changed, smooth=False, rungs=False), part, folder, workers, reporter
+        made = replace(
+            study,
+            solid=solid,
+            runs=runs,
+            reference=cls.REFERENCE,
+            companions=(),
+            smooth=False,
+            rungs=False,
         )
+        return cls(made, part, folder, workers, reporter)
 
     @property
     def start(self) -> float:

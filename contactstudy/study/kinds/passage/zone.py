@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection
 from dataclasses import replace
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from contactstudy.exceptions import InputError
 from contactstudy.geometry.points import EDGE_KEYS, EdgeReachedError
@@ -47,7 +47,8 @@ def _wider(study: Study, error: EdgeReachedError, chosen: Collection[str]) -> St
     if key in chosen or size >= most:
         raise error
     try:
-        return replace(study, solid=replace(study.solid, **{key: min(GROWTH * size, most)}))
+        grown: dict[str, Any] = {key: min(GROWTH * size, most)}
+        return replace(study, solid=replace(study.solid, **grown))
     except InputError:
         raise error from None
 
