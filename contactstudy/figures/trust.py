@@ -1,7 +1,8 @@
 """Where a point scheme can be trusted: its error on sinusoids over wavelength, amplitude, speed.
 
-Drawn in are the levels that railways have (ISO 3095's limit, the paper's Table 1), where contact
-is first lost, and where the reference's own error is not small.
+Drawn in are the levels that railways have (ISO 3095's limit, the paper's Table 1, a measured one),
+where contact is first lost, where a wheel rests on two crests, the length of the patch, and where
+the reference's own error is not small.
 """
 
 from __future__ import annotations
@@ -13,14 +14,14 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import BoundaryNorm
 from matplotlib.figure import Figure
+from matplotlib.ticker import FixedLocator, NullFormatter
 
 from contactstudy.arrays import Array
 from contactstudy.figures.axes.maps import edges, hatch
-from contactstudy.irregularity.chosen import Irregularity
-from contactstudy.irregularity.limit import ISO_3095_LIMIT
+from contactstudy.figures.trust_levels import limit_level, measured_level, paper_level
 from contactstudy.plot.drawing import Drawing
-from contactstudy.plot.style import BLACK, BLUE, GREY, VERMILION, new_figure
-from contactstudy.plot.text import label, number
+from contactstudy.plot.style import BLACK, BLUE, GREEN, GREY, VERMILION, new_figure
+from contactstudy.plot.text import exact, label, number
 from contactstudy.study.axes.axis import AxisOf, axis_of
 from contactstudy.study.results import StudyResults
 
@@ -43,14 +44,24 @@ class TrustMap:
     Attributes
     ----------
     lost : DataArray
-        1 where the reference loses contact, nan where it failed (speed, amplitude, wavelength).
+        1 where the reference loses contact, nan where there is none (speed, amplitude, wavelength).
     own : DataArray or None
         The reference's own error in per cent (speed, wavelength), where a companion gives it.
+    refined : tuple of str
+        What the companion refines.
+    radius, patch : float
+        Of the wheel; length of its patch on a smooth rail, nan if unknown; in m.
+    measured : tuple of ndarray, or None
+        Wavelengths and amplitudes of a measured roughness in m.
     """
 
     errors: xr.DataArray
     lost: xr.DataArray
     own: xr.DataArray | None
+    refined: tuple[str, ...]
+    radius: float
+    patch: float
+    measured: tuple[Array, Array] | None
     wavelength: AxisOf
     amplitude: AxisOf
     speed: AxisOf
@@ -78,23 +89,55 @@ def trust_map(results: StudyResults) -> TrustMap | None:
     errors = errors.isel(run=np.flatnonzero(errors.notnull().any(keys).values))
     share = data["contact_lost"].sel(run=results.reference).transpose(*reversed(keys))
     lost = (share > 0.0).where(share.notnull())
+    own, refined = _own_error(results, data)
     axes = [axis_of(data, key) for key in keys]
-    return TrustMap(errors, lost, _own_error(results, data), *axes)
+    radius = float(results.config["vehicle"]["wheel_radius"])
+    return TrustMap(
+        errors, lost, own, refined, radius, _patch(results, data), measured_level(results), *axes
+    )
 
 
-def _own_error(results: StudyResults, data: xr.Dataset) -> xr.DataArray | None:
-    """Difference of the coarser mesh that the map has from the finest, at the map's own points."""
+def _patch(results: StudyResults, data: xr.Dataset) -> float:
+    """Length of the reference's patch at rest [m]."""
+    if "semi_axis_along" not in data["static"]["signal"].values:
+        return float("nan")
+    half = data["static"].sel(run=results.reference, signal="semi_axis_along")
+    return 2.0 * float(half.max())
+
+
+def _own_error(
+    results: StudyResults, data: xr.Dataset
+) -> tuple[xr.DataArray | None, tuple[str, ...]]:
+    """Sum of the differences from the finest, of all that a companion refines, and of what.
+
+    At the values that the map has, over its wavelengths and speeds; between those of the companion
+    it is interpolated, over the logarithm of the wavelength.
+    """
+    total, refined = None, list[str]()
     for companion in results.companions:
-        refined = companion.designs.get("refine.solid.mesh_size")
-        if refined is None or not {WAVELENGTH, SPEED} <= set(refined.dims):
-            continue
-        size = companion.config["solid"]["mesh_size"]
-        at = refined["from_finest"].sel(_SELECT).isel(run=0)
-        at = at.sel({"solid.mesh_size": size}, method="nearest")
-        points = {WAVELENGTH: data[WAVELENGTH], SPEED: data[SPEED]}
-        found = at.reindex(points, method="nearest", tolerance=1e-9)
-        return 100.0 * found.transpose(SPEED, WAVELENGTH)
-    return None
+        for design in companion.designs.values():
+            key = design.attrs["refined"]
+            if not key or not {WAVELENGTH, SPEED} <= set(design.dims):
+                continue
+            table, _, name = key.partition(".")
+            at = design["from_finest"].sel(_SELECT).isel(run=0)
+            at = at.sel({key: companion.config[table][name]}, method="nearest", drop=True)
+            at = at.assign_coords({WAVELENGTH: np.log(at[WAVELENGTH])})
+            points = {WAVELENGTH: np.log(data[WAVELENGTH].values), SPEED: data[SPEED].values}
+            found = _interpolated(at, points).transpose(SPEED, WAVELENGTH)
+            total = found if total is None else total + found
+            refined.append(label(name))
+    return (None if total is None else 100.0 * total), tuple(refined)
+
+
+def _interpolated(values: xr.DataArray, points: dict[str, Array]) -> xr.DataArray:
+    for dim, at in points.items():
+        values = (
+            values.interp({dim: at})
+            if values.sizes[dim] > 1
+            else values.reindex({dim: at}, method="nearest", tolerance=1e-9)
+        )
+    return values
 
 
 def drawings(results: StudyResults) -> list[Drawing]:
@@ -115,15 +158,37 @@ def _caption(found: TrustMap) -> str:
         "Error of the part of the contact force that the irregularity causes, per cent; rows: "
         "schemes, columns: speeds. Share of the cells below 5 %: "
         f"{', '.join(told)}. Black: contours of 1, 2, 5 and 10 %. Blue: limit of ISO 3095; grey, "
-        "dashed: amplitude of a third octave of the paper's Table 1. Red: the reference loses "
-        "contact above it."
+        "dashed: amplitude of a third octave of the paper's Table 1."
     )
+    if found.measured is not None:
+        text += " Green: the measured roughness."
+    lost = found.lost.values
+    text += (
+        " Red: the reference loses contact above it."
+        if np.nansum(lost) > 0.0
+        else " The reference never loses contact."
+    )
+    text += (
+        " Empty, above the dotted line: the troughs are sharper than the wheel, which would rest "
+        "on two crests."
+    )
+    if np.isfinite(found.patch):
+        text += (
+            f" The patch is {number(1e3 * found.patch)} mm long at rest"
+            f"{' (dash-dotted)' if found.patch > _left(found) else ', left of the map'}."
+        )
     if found.own is not None:
         text += (
-            " Hatched: the reference's own error, from refining its mesh, is more than a third of "
-            "the difference."
+            " Hatched: the reference's own error is more than a third of the difference; it is "
+            "the sum of its differences from finer "
+            f"{', '.join(found.refined)}, at most {number(float(found.own.max()), 2)} %."
         )
     return text
+
+
+def _left(found: TrustMap) -> float:
+    """Left end of the map [m]."""
+    return float(found.edges[0][0] / _units(found)[0])
 
 
 def _draw(found: TrustMap) -> Figure:
@@ -138,16 +203,30 @@ def _draw(found: TrustMap) -> Figure:
             mesh = axes.pcolormesh(
                 *found.edges, values, norm=norm, cmap="viridis_r", rasterized=True
             )
-            _overlay(axes, found, values, k)
             axes.set(xscale="log", yscale="log")
             axes.grid(False)
+            _overlay(axes, found, values, k)
         row[0].set_ylabel(label(run), fontsize=8)
+    _natural(grid[0, 0].xaxis, found.edges[0] / _units(found)[0], _units(found)[0])
     for axes, name in zip(grid[0], found.speed.names, strict=True):
         axes.set_title(name)
-    figure.supxlabel(found.wavelength.title, fontsize=9)
+    figure.supxlabel("wavelength", fontsize=9)
     figure.supylabel(found.amplitude.title, fontsize=9)
     figure.colorbar(mesh, ax=grid.ravel().tolist(), label="error (%)", shrink=0.6)
     return figure
+
+
+def _natural(axis: Any, metres: Array, unit: float) -> None:
+    """Ticks at round lengths, below a metre in mm; `unit` is what the axis has for a metre."""
+    first, last = np.floor(np.log10(metres[0])), np.ceil(np.log10(metres[-1]))
+    decades = 10.0 ** np.arange(first, last + 1)
+    close = metres[-1] < 20.0 * metres[0]
+    steps = (1.0, 2.0, 5.0) if close else (1.0, 3.0)
+    at = [d * s for d in decades for s in steps if metres[0] <= d * s <= metres[-1]]
+    axis.set_major_locator(FixedLocator([unit * v for v in at]))
+    axis.set_minor_formatter(NullFormatter())
+    names = [f"{exact(1e3 * v, 3)} mm" if v < 0.999 else f"{exact(v, 3)} m" for v in at]
+    axis.set_ticklabels(names, fontsize=6)
 
 
 def _overlay(axes: Axes, found: TrustMap, values: Array, speed: int) -> None:
@@ -164,10 +243,18 @@ def _overlay(axes: Axes, found: TrustMap, values: Array, speed: int) -> None:
     if found.own is not None:
         doubtful = found.own.values[speed][None, :] > _SHARE * values
         hatch(axes, *found.edges, doubtful)
-    unit = _units(found)
-    for (wave, amplitude), color, dashes in ((_limit(), BLUE, "-"), (_paper(), GREY, "--")):
-        at = (wave * unit[0] >= x.min()) & (wave * unit[0] <= x.max())
+    unit, (low, high) = _units(found), found.edges[0][[0, -1]]
+    wave = np.geomspace(low, high, 50) / unit[0]
+    sharp = wave, wave**2 / (4.0 * np.pi**2 * found.radius)
+    levels = [(limit_level(), BLUE, "-"), (paper_level(), GREY, "--"), (sharp, BLACK, ":")]
+    if found.measured is not None:
+        levels.append((found.measured, GREEN, "-"))
+    for (wave, amplitude), color, dashes in levels:
+        at = (wave * unit[0] >= low) & (wave * unit[0] <= high)
         axes.plot(wave[at] * unit[0], amplitude[at] * unit[1], color=color, ls=dashes, lw=0.9)
+    if found.patch * unit[0] > low:
+        axes.axvline(found.patch * unit[0], color=GREY, ls="-.", lw=0.9)
+    axes.set_xlim(low, high)
     axes.set_ylim(found.edges[1][0], found.edges[1][-1])
 
 
@@ -178,18 +265,3 @@ def _units(found: TrustMap) -> tuple[float, float]:
         float(found.wavelength.at[0] / data[WAVELENGTH].values[0]),
         float(found.amplitude.at[0] / data[AMPLITUDE].values[0]),
     )
-
-
-def _limit() -> tuple[Array, Array]:
-    """Wavelengths and amplitudes of waves that alone are at the limit of ISO 3095 [m]."""
-    wave, level = np.array(sorted(ISO_3095_LIMIT.items())).T
-    return wave, np.sqrt(2.0) * 1e-6 * 10.0 ** (level / 20.0)
-
-
-def _paper() -> tuple[Array, Array]:
-    """Wavelengths of Table 1's band, and amplitudes of waves with a third octave's variance [m]."""
-    spectrum, (low, high) = Irregularity().formula(), Irregularity().band
-    omega = np.geomspace(low, high, 60)
-    # a two-sided density of the standard deviation s in a third octave: s^2 = 2 G(w) dw
-    variance = 2.0 * spectrum(omega) * omega * (2 ** (1 / 6) - 2 ** (-1 / 6))
-    return 2.0 * np.pi / omega, np.sqrt(2.0 * variance)

@@ -41,6 +41,8 @@ def abstract(results: StudyResults) -> list[str]:
     lost = len(results.failures)
     if lost:
         told.append(f"{counted(lost, 'variant')} could not be computed, left out of all numbers.")
+    for reason, count in results.metrics.get("left_out", {}).items():
+        told.append(f"{counted(count, 'variant')} left out: {reason}.")
     verdicts = Counter(
         line.verdict
         for one in shown(results)
@@ -166,6 +168,6 @@ def _failures(results: StudyResults, design: str) -> list[str]:
         if reason
     }
     titles = {n: v["title"] for n, v in results.metrics["variants"].items()}
-    listed = [f"{label(titles[name])}: {reason}" for name, reason in reasons.items()]
+    listed = [f"{label(titles[n])}: {reason}" for n, reason in reasons.items() if n in titles]
     more = [f"and {len(listed) - _FAILED} more"] if len(listed) > _FAILED else []
     return listed[:_FAILED] + more

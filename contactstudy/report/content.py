@@ -52,7 +52,7 @@ def _report(results: StudyResults, timings: bool) -> Report:
     own = find_kind(results.kind).report(results, timings)
     if not results.swept:
         return own
-    parts = [*axes.parts(results), *own.parts]
+    parts = [*own.parts, *axes.parts(results)]
     subject = axes.subject(results)
     companion = [{"title": "What is varied", "blocks": subject}, *parts]
     return replace(

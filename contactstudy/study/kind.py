@@ -175,6 +175,10 @@ class Kind(ABC):
     def work(self, study: Any, inputs: Inputs) -> Sequence[Work]:
         """The pieces of work."""
 
+    def left_out(self, study: Any) -> str:
+        """Why a point of a grid means nothing, which is left out then; "" for one that does."""
+        return ""
+
     def seconds(self, study: Any, name: str) -> float:
         """Time that a piece of work will take, about; 0 where nobody knows."""
         return 0.0

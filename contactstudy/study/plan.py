@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -63,6 +63,8 @@ class Plan:
     inputs: Inputs
     out_dir: Path
     variants: Mapping[str, Planned]
+    #: Name of a variant that means nothing -> why; it is no failure.
+    left_out: Mapping[str, str] = field(default_factory=dict)
     companions: tuple[Plan, ...] = ()
 
     @property
@@ -125,8 +127,12 @@ def plan_study(study: Study, out_dir: Path, companions: tuple[Plan, ...] = ()) -
     swept = isinstance(study, Swept)
     inputs = _read(kind, study)
     found, shared = dict[str, Planned](), dict[tuple[str, str], Piece]()
+    left_out = dict[str, str]()
     problems = dict[str, list[str]]()
     for name, variant in variants(study).items():
+        if swept and (reason := kind.left_out(variant.study)):
+            left_out[name] = reason
+            continue
         try:
             read = kind.read_inputs(variant.study) if swept else inputs
         except InputError as error:
@@ -144,7 +150,9 @@ def plan_study(study: Study, out_dir: Path, companions: tuple[Plan, ...] = ()) -
             key = store_key([read.config, keys], _module(kind.measuring))
         found[name] = Planned(name, variant.title, variant.study, pieces, key)
     raise_grouped(problems)
-    return Plan(study, kind, inputs, out_dir, found, companions)
+    if left_out and not found:
+        raise InputError(dict.fromkeys(left_out.values()))
+    return Plan(study, kind, inputs, out_dir, found, left_out, companions)
 
 
 def _read(kind: Kind, study: Study | Swept) -> Inputs:

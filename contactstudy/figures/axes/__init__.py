@@ -12,8 +12,17 @@ from contactstudy.study.results import StudyResults
 
 
 def drawings(results: StudyResults) -> list[Drawing]:
-    """All that these results can fill; none for a study without axes."""
-    made = [one for quantity in shown(results) for one in _of(quantity)]
+    """All that these results can fill; none for a study without axes.
+
+    Of quantities over three keys, a figure a run each, only the first; the others are in the data.
+    """
+    made, mapped = list[Drawing](), set[str]()
+    for quantity in shown(results):
+        design = quantity.data.attrs["design"]
+        large = not quantity.data.attrs["refined"] and len(_free(quantity)) == maps.MOST
+        if not (large and design in mapped):
+            made += _of(quantity)
+        mapped |= {design} if large else set()
     count, found = Counter[str](), []
     for one in made:  # names of files are distinct
         count[one.name] += 1
@@ -22,10 +31,15 @@ def drawings(results: StudyResults) -> list[Drawing]:
     return found
 
 
+def _free(quantity: Shown) -> list[str]:
+    """Keys that are no samples."""
+    return [dim for dim in quantity.axes if not drawn(quantity.data, dim)]
+
+
 def _of(quantity: Shown) -> list[Drawing]:
     if quantity.data.attrs["refined"]:
         return refined.drawings(quantity)
-    free = [dim for dim in quantity.axes if not drawn(quantity.data, dim)]
+    free = _free(quantity)
     if not free:
         return samples.drawings(quantity)
     longer = sorted((quantity.data.sizes[dim] for dim in free), reverse=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -33,7 +34,7 @@ def collect_swept(plan: Plan, found: Found) -> StudyResults:
         of_design = measured
         if design.refined and finest:
             of_design = {n: m | _against(plan, found, n, finest[n]) for n, m in measured.items()}
-        groups[design.name] = design_dataset(design, names, of_design, failures)
+        groups[design.name] = design_dataset(design, names, of_design, failures | plan.left_out)
         if design.refined:
             groups[design.name] = with_convergence(groups[design.name], plan.kind)
         if study.keep:
@@ -43,6 +44,8 @@ def collect_swept(plan: Plan, found: Found) -> StudyResults:
 
 def _against(plan: Plan, found: Found, name: str, finest: str) -> dict[str, Any]:
     """What was measured of a variant against the finest one, nothing where one failed."""
+    if finest in plan.left_out:
+        return {}
     key = refined_key(plan.kind, plan.variants[name], plan.variants[finest])
     kept = found.measured.get(key)
     return dict(kept.value) if kept is not None else {}
@@ -61,6 +64,7 @@ def _metrics(plan: Plan, found: Found, failures: Mapping[str, str]) -> dict[str,
 
         variants.<name>:  title, failure where it failed, seconds of each run (set-up and steps;
                           those of a batch are its mean; equal runs of several variants are one)
+        left_out.<reason>: how many points of the designs mean nothing and are left out
         reference:        as of a study without axes
     """
     variants = {}
@@ -68,7 +72,15 @@ def _metrics(plan: Plan, found: Found, failures: Mapping[str, str]) -> dict[str,
         seconds = {n: _seconds(p, found) for n, p in v.pieces.items() if p not in found.failures}
         failed = {"failure": failures[name]} if name in failures else {}
         variants[name] = {"title": v.title, **failed, "seconds": seconds}
-    return {"runs": {}, "variants": variants, "reference": plan.study.reference, "comparisons": {}}
+    left_out = dict(Counter(plan.left_out.values()))
+    told = {"variants": variants} | ({"left_out": left_out} if left_out else {})
+    return {
+        "runs": {},
+        "variants": variants,
+        **told,
+        "reference": plan.study.reference,
+        "comparisons": {},
+    }
 
 
 def _seconds(piece: Piece, found: Found) -> float:

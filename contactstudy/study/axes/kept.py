@@ -30,6 +30,8 @@ def kept_histories(
     """
     found: dict[tuple[tuple[int, ...], str], xr.Dataset] = {}
     for index, name in names.items():
+        if name in plan.left_out:
+            continue
         variant = plan.variants[name]
         pieces = {n: plan.kept(p).value for n, p in variant.pieces.items()}
         if all(value is not None for value in pieces.values()):

@@ -82,6 +82,8 @@ def _wanted(plan: Plan, found: Mapping[Piece, Kept]) -> Iterator[tuple[str, Aske
             yield variant.key, Asked(plan.kind.measuring, variant.study, variant.keys)
     assert isinstance(plan.study, Swept)
     for name, best in finest_points(plan.study) if plan.kind.refining else ():
+        if {name, best} & plan.left_out.keys():
+            continue
         variant, finest = plan.variants[name], plan.variants[best]
         if whole(variant) and whole(finest):
             key = refined_key(plan.kind, variant, finest)

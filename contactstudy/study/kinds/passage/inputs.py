@@ -71,6 +71,10 @@ def read_inputs(study: Study) -> Inputs:
         if "wheelset" in config and (digest := named_file_digest(name)):
             files[Path(name).name] = digest
             config["wheelset"][key] = Path(name).name
+    if "roughness" in config:
+        name = Path(study.roughness.file).name
+        files[name] = file_digest(Path(study.roughness.file))
+        config["roughness"] |= {"file": name, "levels": study.roughness.levels()}
     notes = described.warnings + remarks(study) + _scans(study, config, files)
     if "wheelset" in config and (rail_name := study.track.rail.profile_name) is not None:
         notes += tuple(n for curve in study.wheelset.curves(rail_name) for n in curve.notes)
@@ -171,7 +175,7 @@ def _batch(study: Study, inputs: Inputs, run: str) -> str:
 def _run_inputs(study: Study, inputs: Inputs, run: str) -> list[Any]:
     """Everything that goes into one run, as plain data; the contents of files stand apart."""
     own = study.resolved_run(run)
-    apart = {"runs", "compare", "solid", "measured"} | (
+    apart = {"runs", "compare", "solid", "measured", "roughness"} | (
         {"irregularity"} if own["irregularity"] == "smooth" else set()
     )
     shared = {k: v for k, v in inputs.config.items() if k not in apart}

@@ -61,6 +61,7 @@ class PassageKind(Kind):
     load = later(f"{_HERE}.reading:load_passage")
     read_inputs = later(f"{_HERE}.inputs:read_inputs")
     check = later(f"{_HERE}.forecast:needs")
+    left_out = later(f"{_HERE}.roughness:too_sharp")
     work = later(f"{_HERE}.inputs:work")
     seconds = later(f"{_HERE}.forecast:seconds")
     admit = later(f"{_HERE}.forecast:admit")

@@ -91,6 +91,24 @@ def irregularity_of_rails(study: Study, smooth: bool = False) -> irr.RailProfile
     return irr.both_rails(study.irregularity, required, study.vehicle.wheel_radius)
 
 
+def sharpness(study: Study) -> float:
+    """Curvature of a sinusoid's troughs over the wheel's, k^2 A R; 0 for another irregularity."""
+    table = study.irregularity
+    if table.spectrum != "sinusoid":
+        return 0.0
+    return (2.0 * np.pi / table.wavelength) ** 2 * table.amplitude * study.vehicle.wheel_radius
+
+
+def too_sharp(study: Study) -> str:
+    """What is wrong with waves that a wheel cannot follow, "" for those that it can."""
+    if sharpness(study) <= 1.0:
+        return ""
+    return (
+        "the troughs of the wave are sharper than the wheel, (2 pi/wavelength)^2 amplitude radius "
+        "is above 1: it would rest on two crests"
+    )
+
+
 def describe(study: Study) -> Described:
     """Read the study's irregularity.
 
@@ -113,6 +131,7 @@ def describe(study: Study) -> Described:
             notes += _unsettled(study, measured[1])
     elif isinstance(profile, irr.HarmonicProfile) and not profile.amplitudes.any():
         notes.append("the irregularity is zero throughout: the rail is smooth")
+    notes += [f"irregularity: {text}"] if (text := too_sharp(study)) else []
     described = Described(study, profile, measured, tuple(notes))
     if measured:
         _ = described.info  # a level too short for an estimate is refused here

@@ -14,6 +14,7 @@ from contactstudy.study import study
 from contactstudy.study.kinds.passage.checks import combined
 from contactstudy.study.kinds.passage.on_bridge import journey_on, vehicle_on
 from contactstudy.study.kinds.passage.record import MeasuredRecord
+from contactstudy.study.kinds.passage.roughness_table import RoughnessTable
 from contactstudy.study.kinds.passage.runs import SOLVERS, PointRun, SurfaceRun
 from contactstudy.study.kinds.passage.scan import ScanFiles
 from contactstudy.study.kinds.passage.solid import Solid, spacing
@@ -43,6 +44,7 @@ SECTIONS: dict[str, Table] = {
     "wheelset": WheelsetPosition,
     "scan": ScanFiles,
     "measured": MeasuredRecord,
+    "roughness": RoughnessTable,
 }
 """Tables of a study file."""
 _RUN_NAME = re.compile(rf"[A-Za-z][A-Za-z0-9_]{{,{LONGEST_NAME - 1}}}")
@@ -69,6 +71,7 @@ class Study(study.Study):
     wheelset: WheelsetPosition = field(default_factory=WheelsetPosition)
     scan: ScanFiles = field(default_factory=ScanFiles)
     measured: MeasuredRecord = field(default_factory=MeasuredRecord)
+    roughness: RoughnessTable = field(default_factory=RoughnessTable)
     runs: dict[str, PointRun | SurfaceRun] = field(default_factory=dict)
     reference: Annotated[
         str | None, Key("compare.reference"),
@@ -180,6 +183,7 @@ class Study(study.Study):
         placed = meshed and not self.solid.half
         used = {"solid": meshed, "wheelset": placed, "scan": placed and self.scan.used}
         used["measured"] = self.measured.used
+        used["roughness"] = bool(self.roughness.file)
         return [key for key in SECTIONS if used.get(key, True)]
 
 
