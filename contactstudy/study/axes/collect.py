@@ -28,13 +28,14 @@ def collect_swept(plan: Plan, found: Found) -> StudyResults:
     }
     finest = dict(finest_points(study)) if plan.kind.refining else {}
     failures = {name: text for name, v in plan.variants.items() if (text := _failure(v, found))}
+    missing = {**failures, **plan.left_out}
     groups = {}
     for design in study.designs:
         names = {index: name for (d, index), name, _ in study.named_points() if d is design}
         of_design = measured
         if design.refined and finest:
             of_design = {n: m | _against(plan, found, n, finest[n]) for n, m in measured.items()}
-        groups[design.name] = design_dataset(design, names, of_design, failures | plan.left_out)
+        groups[design.name] = design_dataset(design, names, of_design, missing)
         if design.refined:
             groups[design.name] = with_convergence(groups[design.name], plan.kind)
         if study.keep:
