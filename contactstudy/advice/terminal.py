@@ -1,5 +1,6 @@
 """Print an advice: the answer with its numbers, the reasons, the schemes tried, the run to copy."""
 
+from itertools import pairwise
 from math import pi
 
 from rich.box import SIMPLE
@@ -57,7 +58,7 @@ def reasons(advice: Advice) -> list[str]:
                 f"; {100 * w.share:.0f} % of that in waves of {_length(w.shortest)} to "
                 f"{_length(w.longest)}"
             )
-        told.append(f"{text}. It leaves out {family.lacks}.")
+        told.append(f"{text}. What it leaves out most of all: {cause(advice, name)}.")
     failed = [t for t in advice.tried if t.failure]
     if failed:
         told.append(f"{len(failed)} schemes could not be run; the first: {failed[0].failure}")
@@ -68,6 +69,18 @@ def reasons(advice: Advice) -> list[str]:
         )
     told.append(_basis(advice))
     return told
+
+
+def cause(advice: Advice, family: str) -> str:
+    """What a family leaves out that makes most of its error.
+
+    The families add one thing after the other: what takes the largest part of the mean square of
+    the error, of those that were tried.
+    """
+    names = list(FAMILIES)
+    errors = {n: t.error for n in names[names.index(family) :] if (t := advice.best(n)) is not None}
+    drops = {a: errors[a] ** 2 - errors[b] ** 2 for a, b in pairwise(errors)}
+    return FAMILIES[max(drops, key=lambda n: drops[n]) if drops else family].lacks
 
 
 def _basis(advice: Advice) -> str:

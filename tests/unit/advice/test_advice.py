@@ -2,9 +2,10 @@
 
 import pytest
 
-from contactstudy.advice.advise import advise, read_bound
+from contactstudy.advice.advise import Advice, Tried, advise, read_bound
 from contactstudy.advice.draws import LISTS, RANGES, drawn, draws
-from contactstudy.advice.schemes import FAMILIES, schemes
+from contactstudy.advice.schemes import FAMILIES, Scheme, schemes
+from contactstudy.advice.terminal import cause
 from contactstudy.cli import main
 from contactstudy.exceptions import InputError
 from contactstudy.study.kinds.passage.reading import parse_study
@@ -52,6 +53,21 @@ def test_draws_are_what_they_say():
         assert drawn(number) == (tables, drawn(number)[1])  # a number is a draw
     assert 40e3 <= min(loads) < 45e3
     assert 110e3 < max(loads) <= 125e3
+
+
+def test_the_cause_is_what_takes_most_of_the_error():
+    def tried(family, error):
+        return Tried(family, Scheme(family, {}), 1, 1, 1.0, error)
+
+    errors = {"stiff": 0.42, "tangent": 0.26, "shear": 0.0503, "press": 0.05, "bay": 0.01}
+    found = tuple(tried(*one) for one in errors.items())
+    advice = Advice("x", 0.05, "dynamic", found, found[-1], 0.0, 1.0, (), 0.0, 5e-5)
+    # 0.42^2 - 0.26^2 is more than 0.26^2 - 0.05^2
+    assert cause(advice, "stiff") == FAMILIES["stiff"].lacks
+    assert cause(advice, "tangent") == FAMILIES["tangent"].lacks
+    # from shear to press hardly anything, so that it is what the press still leaves out
+    assert cause(advice, "shear") == FAMILIES["press"].lacks
+    assert cause(advice, "bay") == FAMILIES["bay"].lacks
 
 
 SHORT = {
