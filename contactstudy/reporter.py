@@ -83,3 +83,18 @@ class Bars:
         self._reporter.progress(bar, self._ended[bar], self._all[bar])
         if self._ended[bar] == self._all[bar]:
             self._reporter.end(bar, bar not in self._failed)
+
+
+class NotedOnce:
+    """A `Reporter` that passes on each note once."""
+
+    def __init__(self, reporter: Reporter) -> None:
+        self._reporter, self._noted = reporter, set[str]()
+        self.begin, self.progress, self.end = reporter.begin, reporter.progress, reporter.end
+        self.stage = reporter.stage
+
+    def note(self, text: str) -> None:
+        """Pass on what was not said before."""
+        if text not in self._noted:
+            self._noted.add(text)
+            self._reporter.note(text)

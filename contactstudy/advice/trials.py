@@ -15,8 +15,9 @@ from contactstudy.compare import norms
 from contactstudy.compare.signals import position, values
 from contactstudy.driver import compute_study
 from contactstudy.exceptions import ContactStudyError, InputError
-from contactstudy.reporter import Reporter
+from contactstudy.reporter import NotedOnce, Reporter
 from contactstudy.study.kinds.passage import contact, forecast
+from contactstudy.study.kinds.passage.record import MeasuredRecord
 from contactstudy.study.kinds.passage.runs import SOLVERS
 from contactstudy.study.kinds.passage.schema import Study
 from contactstudy.validation import raise_if, read
@@ -63,10 +64,11 @@ class Trials:
             runs=runs,
             reference=cls.REFERENCE,
             companions=(),
+            measured=MeasuredRecord(),
             smooth=False,
             rungs=False,
         )
-        return cls(made, part, folder, workers, reporter)
+        return cls(made, part, folder, workers, None if reporter is None else NotedOnce(reporter))
 
     @property
     def start(self) -> float:
