@@ -11,6 +11,9 @@ from contactstudy.study.axes.shown import Shown, drawn, shown
 from contactstudy.study.results import StudyResults
 
 
+_MAPPED = 3  # keys with a figure a run
+
+
 def drawings(results: StudyResults) -> list[Drawing]:
     """All that these results can fill; none for a study without axes.
 
@@ -19,7 +22,7 @@ def drawings(results: StudyResults) -> list[Drawing]:
     made, mapped = list[Drawing](), set[str]()
     for quantity in shown(results):
         design = quantity.data.attrs["design"]
-        large = not quantity.data.attrs["refined"] and len(_free(quantity)) == maps.MOST
+        large = not quantity.data.attrs["refined"] and len(_free(quantity)) == _MAPPED
         if not (large and design in mapped):
             made += _of(quantity)
         mapped |= {design} if large else set()
