@@ -10,7 +10,6 @@ from contactstudy.study.axes.effects import too_many
 from contactstudy.study.axes.shown import Shown, drawn, shown
 from contactstudy.study.results import StudyResults
 
-
 _MAPPED = 3  # keys with a figure a run
 
 
