@@ -26,12 +26,19 @@ if TYPE_CHECKING:
     import xarray as xr
 
 _FAILED = 12  # failures that are listed
+_LISTED = 3  # refinements whose values an abstract tells
 
 
 def abstract(results: StudyResults) -> list[str]:
     """What is varied, what is found, and what failed."""
-    told = []
+    refined = {n: d for n, d in results.designs.items() if d.attrs["refined"]}
+    told = _observed(results)
+    if len(refined) > _LISTED:
+        variants = counted(sum(d["variant"].size for d in refined.values()), "variant")
+        told.append(f"{len(refined)} keys are refined one at a time, in {variants}.")
     for name, data in results.designs.items():
+        if name in refined and len(refined) > _LISTED:
+            continue
         ranges = [f"{title_of(key)} ({_values(results, name, key)})" for key in _how(data)]
         what = "refined" if data.attrs["refined"] else "varied"
         verb = "is" if len(ranges) == 1 else "are"
@@ -55,6 +62,30 @@ def abstract(results: StudyResults) -> list[str]:
     swept = [name for name, data in results.designs.items() if not data.attrs["refined"]]
     first = [d.caption for d in axes.drawings(results) if swept and d.name.startswith(swept[0])]
     return [" ".join(told), *first[:1]]
+
+
+def _observed(results: StudyResults) -> list[str]:
+    """Where the expected orders are found: of the quantity that has most of them."""
+    found: dict[str, list[tuple[bool, str, str]]] = {}
+    for one in shown(results):
+        expected = one.data.attrs.get("expected_order")
+        if expected and one.name.startswith("from_finest"):
+            what = f"{title_of(one.data.attrs['refined'])} {expected:g}"
+            found.setdefault(one.title.rpartition(" (")[0], []).extend(
+                (line.agrees(expected), what, f"{line.name} {line.order_text}".strip())
+                for line in convergences(one)
+            )
+    if not found:
+        return []
+    title, best = max(found.items(), key=lambda item: sum(agrees for agrees, *_ in item[1]))
+    told = f"{title}: the expected order is observed in {sum(a for a, *_ in best)} of {len(best)}"
+    for agrees, head in ((True, " cases"), (False, "; not")):
+        runs: dict[str, list[str]] = {}
+        for _, what, observed in (case for case in best if case[0] is agrees):
+            runs.setdefault(what, []).append(observed.replace("order ", ""))
+        listed = [f"{what} ({', '.join(texts)})" for what, texts in runs.items()]
+        told += f"{head}: {'; '.join(listed)}" if listed else ""
+    return [f"{told}."]
 
 
 def subject(results: StudyResults) -> list[Block]:
