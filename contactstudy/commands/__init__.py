@@ -7,7 +7,7 @@ from cyclopts import App
 from contactstudy.commands.advising import advise, verify_advice
 from contactstudy.commands.asking import check, status
 from contactstudy.commands.exporting import export
-from contactstudy.commands.listing import cache, keys, studies
+from contactstudy.commands.listing import cache, keys, studies, vehicles
 from contactstudy.commands.looking import diff, plot
 from contactstudy.commands.running import reproduce, run
 from contactstudy.commands.starting import new
@@ -44,6 +44,7 @@ _COMMANDS = (
     verify_advice,
     export,
     studies,
+    vehicles,
     keys,
     cache,
 )

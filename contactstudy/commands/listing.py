@@ -20,6 +20,21 @@ def studies() -> None:
         print(f"{name:<{width}}  {title}")
 
 
+def vehicles() -> None:
+    """List the shipped cars of trains: axle load, models that their source allows, and title."""
+    from contactstudy.given_files import toml_file
+    from contactstudy.vehicle import GRAVITY
+    from contactstudy.vehicle.vehicle_file import read_car, shipped_cars
+
+    shipped = shipped_cars()
+    width = max(map(len, shipped), default=0)
+    for name, path in shipped.items():
+        car = read_car(name)
+        models = "planar" if car.missing else "planar, three_dimensional"
+        load = f"{car.static_axle_load / GRAVITY / 1e3:.1f} t"
+        print(f"{name:<{width}}  {load:>6}  {models:<25}  {toml_file(path).get('name', '')}")
+
+
 def keys() -> None:
     """Print every key of study files with unit, default, limits and meaning, in Markdown."""
     from contactstudy.study.keys import AXES, key_reference

@@ -352,3 +352,12 @@ def test_cache_says_what_is_there_and_clears_it(tmp_path, monkeypatch, capsys):
     lines = [f"{where}: 0 entries, 0.0 MB", f"{where}: 1 entry, 2.0 MB"]
     assert capsys.readouterr().out.splitlines() == [*lines, lines[0]]
     assert [p.name for p in where.iterdir()] == ["mine.txt"]
+
+
+def test_vehicles_lists_cars_with_what_their_sources_give(capsys):
+    assert cli.main(["vehicles"]) == 0
+    lines = {line.split()[0]: line for line in capsys.readouterr().out.splitlines()}
+    assert "13.7 t" in lines["s300"] and "three_dimensional" not in lines["s300"]
+    assert (
+        "three_dimensional" in lines["high_speed_motor"] and "16.0 t" in lines["high_speed_motor"]
+    )

@@ -54,6 +54,8 @@ def test_comfort_of_the_cars_and_of_too_short_a_run():
     )
     data = run_over(rough, ("2 x s300",))
     found = comfort_of({"one": data, "none": data.drop_vars("car_acceleration")})
+    still = data.assign_attrs(law="moving force")  # which no rail moves
+    assert comfort_of({"one": still}) == {}
     assert list(found) == ["one"] and len(found["one"]["cars"]) == 2
     for k, car in enumerate(found["one"]["cars"]):
         assert 0.5 < car["sperling"]["Z"] < 4.0 and set(car["sperling"]) == {"Z"}

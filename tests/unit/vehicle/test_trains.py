@@ -1,5 +1,7 @@
 """Trains of cars and of axle loads."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -115,3 +117,10 @@ def test_freight_wagons_carry_eight_tonnes_a_metre():
     behind, loads = FreightWagons(wagons=20).axles
     assert sum(loads) / G / (20 * 11.25) == pytest.approx(8000.0)
     assert behind[4] - behind[3] == pytest.approx(2 * 1.5)
+
+
+def test_the_documented_car_is_one(tmp_path):
+    page = (Path(__file__).parents[3] / "docs" / "studies.md").read_text("utf-8")
+    file = tmp_path / "mine.toml"
+    file.write_text(page.split("```text\n")[1].split("```")[0], "utf-8")
+    assert read_car(str(file)).static_axle_load == pytest.approx(14e3 * G)
