@@ -47,7 +47,7 @@ def _track(axes: Axes, track: Mapping[str, Any]) -> None:
     axes.add_patch(Rectangle((ends[0], -0.12), ends[1] - ends[0], 0.12, fc=SHADE, ec=BLACK, lw=0.8))
     x = np.linspace(*ends, 400)
     axes.plot(x, 0.035 + 0.03 * np.sin(4.1 * x) * np.sin(1.3 * x + 0.4), color=BLUE, lw=0.9)
-    axes.text(ends[0] + 0.02, 0.13, "$r_v(X)$", color=BLUE, fontsize=8)
+    axes.text(ends[0] + 0.02, 0.13, "$r_v(X)$", color=BLUE, fontsize=8, parse_math=True)
     discrete = track.get("support") == "discrete"
     if track.get("support") == "none":
         return
@@ -121,7 +121,9 @@ def _point(axes: Axes, x: float, z: float) -> None:
     axes.text(x, z + 1.05, "point contact", fontsize=8, ha="center")
     axes.add_patch(Circle((x, z + 0.75), 0.16, fc="white", ec=BLACK, lw=0.9))
     _spring(axes, x, z + 0.13, z + 0.59, VERMILION)
-    axes.text(x + 0.14, z + 0.36, "law, $k_r$", fontsize=8, va="center", color=VERMILION)
+    axes.text(
+        x + 0.14, z + 0.36, "law, $k_r$", fontsize=8, va="center", color=VERMILION, parse_math=True
+    )
     axes.plot((x - 0.85, x + 0.85), (z + 0.13, z + 0.13), color=BLACK, lw=2.0)
     axes.plot(
         x + np.array([-0.75, -0.25, 0.25, 0.75]), np.full(4, z + 0.13), "o", color=BLACK, ms=3
@@ -157,7 +159,7 @@ def _surface(axes: Axes, x: float, z: float) -> None:
             "", (x + u, top), (x + u, top + 0.05 + 0.2 * p),
             arrowprops={"arrowstyle": "-|>", "lw": 0.6, "color": VERMILION, "mutation_scale": 5},
         )  # fmt: skip
-    axes.text(x + 0.3, top + 0.18, "$p$", fontsize=8, color=VERMILION)
+    axes.text(x + 0.3, top + 0.18, "$p$", fontsize=8, color=VERMILION, parse_math=True)
     axes.text(x, top - 0.38, "meshed wheel and rail", fontsize=8, ha="center", va="top")
 
 

@@ -10,13 +10,51 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Ellipse
 
-from contactstudy.arrays import Array
+from contactstudy.arrays import Array, BoolArray
 from contactstudy.compare.signals import position, values
 from contactstudy.figures.hertz_ellipse import HertzPatch, hertz_patch
 from contactstudy.plot.drawing import Drawing
 from contactstudy.plot.style import BLACK, VERMILION, map_axes, new_figure
 from contactstudy.plot.text import exact, label, number
 from contactstudy.study.results import StudyResults
+
+
+@dataclass(frozen=True)
+class Touching:
+    """Contact points of one instant on the whole patch.
+
+    Attributes
+    ----------
+    x, y : (k,), (l,) array
+        Grid lines relative to the wheel, mm.
+    closed : (k, l) array of bool
+        Points that touch.
+    """
+
+    x: Array
+    y: Array
+    closed: BoolArray
+
+    def region(self, x: Array, y: Array) -> BoolArray:
+        """Whether places on grid lines (n,), (m,) in mm lie in a patch, (m, n).
+
+        A place is in it where its nearest contact point touches, or is a hole within those that
+        do: single points inside a patch are open.
+        """
+        from scipy.ndimage import binary_fill_holes
+
+        filled = binary_fill_holes(self.closed)
+        i, j = (np.abs(u[:, None] - own).argmin(axis=1) for u, own in ((x, self.x), (y, self.y)))
+        return np.asarray(filled[np.ix_(i, j)].T, dtype=bool)
+
+
+def touching_of(run: xr.Dataset, instant: int) -> Touching | None:
+    """Contact points at one of a run's instants; None where they are not stored."""
+    if "contact_pressure" not in run:
+        return None
+    own = np.asarray(run["contact_pressure"].isel(instant=instant).values)
+    x, y, (pressure,) = whole_grid(run, own, ("contact_x", "contact_y"))
+    return Touching(x, y, pressure > 0)
 
 
 @dataclass(frozen=True)
@@ -35,6 +73,8 @@ class ShownPatch:
         Contact force at that instant, N.
     instant : int
         Its number among those stored.
+    touching : Touching, optional
+        The contact points then, where the run has stored them.
     """
 
     x: Array
@@ -43,6 +83,7 @@ class ShownPatch:
     position: float
     force: float
     instant: int = 0
+    touching: Touching | None = None
 
 
 def drawings(results: StudyResults) -> list[Drawing]:
@@ -78,7 +119,8 @@ def whole_grid(
 
     Both halves of a symmetric model. `at` names the points' coordinates.
     """
-    x, y = (np.unique(np.asarray(run[name].values)) for name in at)
+    # positions of points come from their interpolation, equal but for rounding
+    x, y = (np.unique(np.round(np.asarray(run[name].values), 9)) for name in at)
     grid = field.reshape(-1, len(x), len(y))
     if run["point_y"].attrs.get("symmetric", y[0] >= -1e-9):
         rest = 1 if y[0] < 1e-9 else 0  # points on the plane of symmetry have no mirror image
@@ -104,7 +146,7 @@ def patch_of(run: xr.Dataset) -> ShownPatch | None:
     if y.min() >= -1e-9:  # half model: the other half is its mirror image
         inner = y > 1e-9
         x, y, p = np.r_[x, x[inner]], np.r_[y, -y[inner]], np.r_[p, p[inner]]
-    return ShownPatch(x, y, p, float(at[k]), float(force[k]), k)
+    return ShownPatch(x, y, p, float(at[k]), float(force[k]), k, touching_of(run, k))
 
 
 def _of_instant(data: xr.DataArray, k: int) -> Array:
@@ -122,7 +164,7 @@ def _map(patch: ShownPatch, hertz: HertzPatch | None) -> Figure:
     half = 1.35 * max(np.abs(x[p > 0]).max(), np.abs(y[p > 0] - middle).max())
     if hertz is not None:
         half = max(half, 1.25e3 * max(hertz.along, hertz.across))
-    image = _field(left, x, y, p)
+    image = _field(left, x, y, p, patch.touching)
     if hertz is not None:
         size = (2e3 * hertz.along, 2e3 * hertz.across)
         left.add_patch(Ellipse((0, 0), *size, fill=False, ec=VERMILION, lw=1.4, ls="--"))
@@ -136,7 +178,7 @@ def _map(patch: ShownPatch, hertz: HertzPatch | None) -> Figure:
     return figure
 
 
-def _field(axes: Axes, x: Array, y: Array, p: Array) -> ScalarMappable:
+def _field(axes: Axes, x: Array, y: Array, p: Array, touching: Touching | None) -> ScalarMappable:
     """The bilinear field between nodes that form a grid, as in the elements; else by triangles."""
     gx, ix = np.unique(np.round(x, 6), return_inverse=True)
     gy, iy = np.unique(np.round(y, 6), return_inverse=True)
@@ -144,7 +186,8 @@ def _field(axes: Axes, x: Array, y: Array, p: Array) -> ScalarMappable:
         grid = np.full((gy.size, gx.size), np.nan)
         grid[iy, ix] = p
         fine_x, fine_y, fine = bilinear(gx, gy, grid)
-        shown = np.where(fine > 0, fine, np.nan)  # no colour where nothing touches
+        inside = fine > 0 if touching is None else touching.region(fine_x, fine_y)
+        shown = np.where(inside, fine, np.nan)  # no colour where nothing touches
         return axes.pcolormesh(fine_x, fine_y, shown, cmap="cividis_r", vmin=0, shading="nearest")
     levels = np.linspace(0, p.max(), 13)
     return axes.tricontourf(x, y, p, levels=levels, cmap="cividis_r")

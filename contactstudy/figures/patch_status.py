@@ -8,15 +8,21 @@ from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch as Swatch
 
-from contactstudy.arrays import Array, BoolArray
-from contactstudy.figures.patch import ShownPatch, bilinear, patches_of, whole_grid
+from contactstudy.arrays import Array
+from contactstudy.figures.patch import (
+    ShownPatch,
+    Touching,
+    bilinear,
+    patches_of,
+    touching_of,
+    whole_grid,
+)
 from contactstudy.plot.drawing import Drawing
 from contactstudy.plot.style import BLACK, BLUE, SHADE, SKY, map_axes, new_figure
 from contactstudy.plot.text import exact, label, number
 from contactstudy.study.results import StudyResults
 
 _GAPS = (5.0, 10.0, 20.0, 50.0)  # µm
-_POINTS = ("contact_x", "contact_y")
 
 
 @dataclass(frozen=True)
@@ -27,23 +33,16 @@ class Status:
     ----------
     x, y : (n,), (m,) array
         Grid lines of the tread nodes relative to the wheel, mm.
-    pressed : (n, m) array of bool
-        Nodes that carry pressure.
     gap : (n, m) array
         At the nodes, µm; negative: penetration.
-    points_x, points_y : (k,), (l,) array
-        Grid lines of the contact points, mm.
-    closed : (k, l) array of bool
-        Contact points that touch.
+    points : Touching
+        The contact points.
     """
 
     x: Array
     y: Array
-    pressed: BoolArray
     gap: Array
-    points_x: Array
-    points_y: Array
-    closed: BoolArray
+    points: Touching
 
 
 def drawings(results: StudyResults) -> list[Drawing]:
@@ -61,32 +60,29 @@ def drawings(results: StudyResults) -> list[Drawing]:
 
 def status_of(run: xr.Dataset, instant: int) -> Status:
     """Status and gap at one of a run's instants, both halves of a symmetric model."""
-    fields = [run[name].isel(instant=instant).values for name in ("pressure", "gap")]
-    x, y, (pressure, gap) = whole_grid(run, np.array(fields))
-    own = run["contact_pressure"].isel(instant=instant).values
-    points_x, points_y, (at_points,) = whole_grid(run, own, _POINTS)
-    return Status(x, y, pressure > 0, gap * 1e6, points_x, points_y, at_points > 0)
+    x, y, (gap,) = whole_grid(run, np.asarray(run["gap"].isel(instant=instant).values))
+    points = touching_of(run, instant)
+    assert points is not None
+    return Status(x, y, gap * 1e6, points)
 
 
 def _draw(status: Status) -> Figure:
     figure = new_figure(2.9, equal_axes=True)
     left, right = figure.subplots(1, 2, sharey=True)
     left.pcolormesh(
-        status.points_x, status.points_y, status.closed.T.astype(float),
+        status.points.x, status.points.y, status.points.closed.T.astype(float),
         cmap=ListedColormap([SHADE, BLUE]), vmin=-0.5, vmax=1.5,
         shading="nearest", edgecolors="white", linewidth=0.3,
     )  # fmt: skip
     swatches = [
         Swatch(color=SHADE, label="open"),
         Swatch(color=BLUE, label="touching"),
-        Swatch(color=SKY, label="under pressure at the nodes"),
+        Swatch(color=SKY, label="in the patch"),
     ]
     figure.legend(handles=swatches, loc="outside upper center", ncols=3)
     x, y, gap = bilinear(status.x, status.y, status.gap.T)
-    _, _, pressed = bilinear(status.x, status.y, status.pressed.T.astype(float))
-    right.pcolormesh(
-        x, y, np.where(pressed > 0, 1.0, np.nan), cmap=ListedColormap([SKY]), shading="nearest"
-    )
+    inside = np.where(status.points.region(x, y), 1.0, np.nan)
+    right.pcolormesh(x, y, inside, cmap=ListedColormap([SKY]), shading="nearest")
     lines = right.contour(x, y, gap, levels=_GAPS, colors=BLACK, linewidths=0.7)
     right.clabel(lines, fmt="%g µm", fontsize=7)
     for ax, text in ((left, "Contact points"), (right, "Gap around the patch")):
@@ -104,10 +100,11 @@ def _caption(name: str, run: xr.Dataset, patch: ShownPatch, status: Status) -> s
     deepest = max(-float(status.gap.min()), 0.0)
     return (
         f"Contact of the run {label(name)} at X = {exact(patch.position)} m: the contact "
-        "points, four to a facet (left), and the gap around the patch with the part under pressure "
-        "as in the map of pressure (right). The points in contact stand for "
-        f"{number(float(area @ nodal) * 1e6)} mm². That is less than the patch, because single "
-        "points within it are open, and it jumps as points come and go: the contact area of a run "
+        "points, four to a facet (left), and the gap around the patch (right), which is drawn as in "
+        "the map of pressure: points that touch, and open ones among them. The points in contact "
+        f"stand for {number(float(area @ nodal) * 1e6)} mm². That is less than the patch, because "
+        "single points "
+        "within it are open, and it jumps as points come and go: the contact area of a run "
         "is taken from the gap around the patch. The largest penetration at a node is "
         f"{number(deepest, 2)} µm."
     )

@@ -103,9 +103,11 @@ def point_fields(
         `contact_pressure` (dim, contact_point), `contact_x` and `contact_y` (contact_point,).
     """
     at, where = ("contact_point",), "of the contact points"
+    x, y = np.meshgrid(points.wheel_x, points.wheel_y, indexing="ij")
+    rows = points.wheel_rows.matrix(x.size)  # positions as those of the nodes are given
     return {
-        "contact_x": _variable(at, points.x_of_points, "m", f"position {where} from the wheel"),
-        "contact_y": _variable(at, points.y_of_points, "m", f"position {where} across the rail"),
+        "contact_x": _variable(at, rows @ x.ravel(), "m", f"point_x {where}"),
+        "contact_y": _variable(at, rows @ y.ravel(), "m", f"point_y {where}"),
         "contact_pressure": _variable(
             (dim, *at), [f / points.area for f in forces], "Pa", f"pressure {where}"
         ),

@@ -7,6 +7,7 @@ import pytest
 from PIL import Image
 
 from contactstudy.figures.animation import frames_of, write_animations
+from contactstudy.figures.patch import Touching
 from contactstudy.halfspace.subsurface import stress_maxima
 from contactstudy.plot.style import figure_style
 from contactstudy.report.content import content
@@ -97,3 +98,15 @@ def test_frames_are_mirrored(full):
 def test_no_frames_no_animation(bare, tmp_path):
     assert write_animations(bare, tmp_path) == []
     assert not list(tmp_path.iterdir())
+
+
+def test_the_patch_is_what_touches_with_its_holes():
+    closed = np.zeros((6, 5), dtype=bool)
+    closed[1:5, 1:4] = True
+    closed[2, 2] = False  # an open point among those that touch
+    points = Touching(np.arange(6.0), np.arange(5.0), closed)
+    inside = points.region(np.array([0.0, 0.6, 2.1, 4.4, 4.6]), np.array([0.4, 2.0, 3.6]))
+    np.testing.assert_array_equal(
+        inside,
+        [[False] * 5, [False, True, True, True, False], [False] * 5],
+    )
