@@ -30,8 +30,10 @@ class Compiled:
     @functools.cached_property
     def compiled(self) -> Callable[..., Any]:
         """The function as numba makes it."""
-        from numba import njit
+        from numba import config, njit
 
+        # sums for several lanes that are written out side by side become one instruction
+        setattr(config, "SLP_VECTORIZE", 1)  # noqa: B010 - unknown to type checkers
         function = self.py_func
         known = function.__globals__
         # numba looks at a function's own file only to see whether what it kept is still valid;

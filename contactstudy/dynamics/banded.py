@@ -71,7 +71,7 @@ class Factor:
         band = np.zeros((self.half_bandwidth + 1, self.n))
         band[rows - columns, columns] = lower.data
         try:
-            self._band = scipy.linalg.cholesky_banded(band, lower=True)
+            self.band = scipy.linalg.cholesky_banded(band, lower=True)
         except (np.linalg.LinAlgError, ValueError) as error:
             raise NumericalError(
                 f"the system matrix ({self.n} dofs) is not positive definite: {error}."
@@ -95,7 +95,7 @@ class Factor:
         ] = 1.0
         for distance in range(self.half_bandwidth + 1):
             i = np.arange(distance, self.n)
-            rows[i, width + i % BLOCK - distance] = self._band[distance, : self.n - distance]
+            rows[i, width + i % BLOCK - distance] = self.band[distance, : self.n - distance]
         blocks = rows.reshape(n_blocks, BLOCK, width + BLOCK)
         left = np.ascontiguousarray(blocks[:, :, :width])
         filled = np.any(left != 0.0, axis=1)

@@ -18,12 +18,18 @@ _LOWERED, _LOWEST = 20e-6, 5e-3
 """m: by which a wheel that touches nothing is lowered at a time, and in all."""
 _GIVE = 1e-10
 """m/N: give of a contact in the first guess, where two wheels of one body stand on rigid ground."""
+_SPRING = 1e9
+"""N/m: of each spring under a wheel."""
 _LEAST = 1e-6
 """N: load against which springs count as carrying nothing; lateral contact starts with none."""
 
 
 def static_start(
-    system: LinearSystem, coupling: Coupling, external: Array, wheels: tuple[IntArray, Array]
+    system: LinearSystem,
+    coupling: Coupling,
+    external: Array,
+    wheels: tuple[IntArray, Array],
+    held: Factor | None = None,
 ) -> State:
     """Equilibrium with the contact at step 0: K u = external + B^T lambda(u), at rest.
 
@@ -36,6 +42,8 @@ def static_start(
     ----------
     wheels : tuple of ndarray
         Dofs and weights (nc, j) of the vehicle's displacement at each contact.
+    held : Factor, optional
+        `held_by_springs`, if it is at hand.
 
     Raises
     ------
@@ -43,10 +51,10 @@ def static_start(
         If K is singular for another reason than free wheels, a wheel finds nothing to stand on, or
         no equilibrium is found.
     """
-    n, kappa = system.n_dofs, 1e9  # N/m of each spring under a wheel
+    n, kappa = system.n_dofs, _SPRING
     G = _written_out(*wheels, n)
     pressed = G @ external < 0.0
-    factor = Factor(system.stiffness + kappa * (G.T @ G))
+    factor = held_by_springs(system, wheels) if held is None else held
     attached, before_touch = coupling.attached(factor, 1.0), coupling.start()
 
     def spring_forces(feet: Array) -> tuple[Array, Array, ContactStep]:
@@ -89,6 +97,12 @@ def static_start(
         "no static equilibrium found at the start:"
         f" {np.abs(force).max():.3g} N left under a wheel with {scale:.3g} N to carry"
     )
+
+
+def held_by_springs(system: LinearSystem, wheels: tuple[IntArray, Array]) -> Factor:
+    """Factor of the stiffness with a spring under each wheel, see `static_start`."""
+    G = _written_out(*wheels, system.n_dofs)
+    return Factor(system.stiffness + _SPRING * (G.T @ G))
 
 
 def _first_inverse(

@@ -1,13 +1,16 @@
 """The time stepper: a linear system in contact, as a generator of states.
 
-Everything linear is factored once. With S = (1-am)/(beta dt^2) M + (1-af) gamma/(beta dt) C
-+ (1-af) K a step is
+Newmark's kinematics are u(n+1) = u~ + beta dt^2 a(n+1) and v(n+1) = v~ + gamma dt a(n+1), with what
+follows from the state before in u~ and v~. Everything linear is factored once: with
+S = (1-am) M + (1-af) (gamma dt C + beta dt^2 K) a step is
 
-    u(n+1) = u* + (1-af) S^-1 B^T lambda(n+1),
+    a(n+1) = a* + (1-af) S^-1 B^T lambda(n+1),
 
-where the free response u* follows from the state before and the external load, and lambda are
+where the free response a* follows from the state before and the external load, and lambda are
 the contact forces on the gap rows B (+1 on the wheel, minus the rail's row). A contact law, a
-`Coupling`, never sees the track: it gets u* and returns the load B^T lambda and the increment.
+`Coupling`, never sees the track: it gets u* = u~ + beta dt^2 a* and returns the load B^T lambda and
+the increment of the displacements. With accelerations as the unknowns rounding is smallest: from
+displacements they would be differences divided by dt^2.
 """
 
 from collections.abc import Callable, Iterator, Mapping
@@ -17,7 +20,6 @@ from typing import Any, Protocol, runtime_checkable
 import numpy as np
 
 from contactstudy.arrays import Array
-from contactstudy.compiled import compiled
 from contactstudy.dynamics.banded import Factor, LinearSystem
 from contactstudy.dynamics.integrators import (
     Integrator,
@@ -25,7 +27,7 @@ from contactstudy.dynamics.integrators import (
     generalised_alpha,
     newmark,
 )
-from contactstudy.dynamics.windows import add_product, windows
+from contactstudy.dynamics.windows import subtract_product, windows
 from contactstudy.exceptions import NumericalError
 from contactstudy.validation import positive, raise_if
 
@@ -162,61 +164,40 @@ def march(
     NumericalError
         If S cannot be factored or a state is not finite; says at which step.
     """
-    dt = steps.length
-    alpha_m, alpha_f = integrator.alpha_m, integrator.alpha_f
-    wm, wf = 1.0 - alpha_m, 1.0 - alpha_f
-    kinematics = c0, c2, c3, d0, d2, d3 = integrator.kinematics(dt)
-    factor = Factor(system.combine(wm * c0, wf * d0, wf))
+    dt, beta, gamma = steps.length, integrator.beta, integrator.gamma
+    am, af = integrator.alpha_m, integrator.alpha_f
+    of_a = beta * dt**2
+    factor = Factor(system.combine(1.0 - am, (1.0 - af) * gamma * dt, (1.0 - af) * of_a))
     attached = contact_state = None
     if coupling is not None:
-        attached = coupling.attached(factor, wf)
+        attached = coupling.attached(factor, (1.0 - af) * of_a)
         contact_state = start.contact.state if start.contact else coupling.start()
     mass, damping, stiffness = map(windows, (system.mass, system.damping, system.stiffness))
-    # S u* = (1-af) f_ext(n+1) + af f(n) + M(...) + C(...) + K(...), each (...) = (c u + d v + e a)
-    of_mass = np.array([wm * c0, -wm * c2, -wm * c3 - alpha_m])
-    of_damping = np.array([wf * d0, -wf * d2 - alpha_f, -wf * d3])
-    of_stiffness = np.array([-alpha_f, 0.0, 0.0])
     load_at = external if callable(external) else lambda step: external
     u, v, a, load = start.u, start.v, start.a, start.load
     for step in range(1, steps.count + 1):
         ext = load_at(step)
-        rhs = wf * ext
-        add_product(mass, of_mass, (u, v, a), rhs)
-        add_product(damping, of_damping, (u, v, a), rhs)
-        if alpha_f != 0.0:
-            rhs += alpha_f * load
-            add_product(stiffness, of_stiffness, (u, v, a), rhs)
-        u_new = factor.solve(rhs)
+        u_known = u + dt * v + dt**2 * (0.5 - beta) * a  # u~
+        v_known = v + dt * (1.0 - gamma) * a  # v~
+        # S a* = (1-af) f_ext(n+1) + af f(n) - am M a - C ((1-af) v~ + af v) - K ((1-af) u~ + af u)
+        rhs = (1.0 - af) * ext + af * load
+        if am != 0.0:
+            subtract_product(mass, am * a, rhs)
+        subtract_product(damping, (1.0 - af) * v_known + af * v, rhs)
+        subtract_product(stiffness, (1.0 - af) * u_known + af * u, rhs)
+        a_free = factor.solve(rhs)
+        u, a = u_known + of_a * a_free, a_free
         contact, load = None, ext
         if attached is not None:
-            contact = attached(step, u_new, contact_state)
+            contact = attached(step, u, contact_state)
             contact_state = contact.state
-            u_new = u_new + contact.increment
+            u, a = u + contact.increment, a + contact.increment / of_a
             load = ext + contact.load
-        v_new, a_new = np.empty_like(u), np.empty_like(u)
-        if not _advance(kinematics, (u, v, a), (u_new, v_new, a_new)):
+        v = v_known + gamma * dt * a
+        if not np.isfinite(a).all():
             where = f" (wheel at X = {steps.position(step):.3f} m)" if steps.position else ""
             raise NumericalError(
                 f"the state is not finite after step {step} of {steps.count},"
                 f" t = {step * dt:.6g} s{where}"
             )
-        u, v, a = u_new, v_new, a_new
         yield State(step, step * dt, u, v, a, load, contact)
-
-
-@compiled
-def _advance(
-    coefficients: tuple[float, float, float, float, float, float],
-    old: tuple[Array, Array, Array],
-    new: tuple[Array, Array, Array],
-) -> bool:
-    """Newmark's kinematics; False if the new state is not finite."""
-    c0, c2, c3, d0, d2, d3 = coefficients
-    (u, v, a), (u_new, v_new, a_new) = old, new
-    total = 0.0
-    for i in range(len(u)):
-        moved = u_new[i] - u[i]
-        a_new[i] = c0 * moved + c2 * v[i] + c3 * a[i]
-        v_new[i] = d0 * moved + d2 * v[i] + d3 * a[i]
-        total += a_new[i] * 0.0  # 0 as long as all are finite
-    return total == 0.0

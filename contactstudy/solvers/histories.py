@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactstudy.arrays import Array
+from contactstudy.contact.point_steps import LaneRecord
 from contactstudy.dynamics.rows import row_values
 from contactstudy.dynamics.stepper import State
 from contactstudy.solvers.dataset import history_dataset
@@ -36,7 +37,7 @@ class Histories(Watch):
         self._passage, self._wheels, self._rails = passage, passage.wheels, passage.rail_rows
         track, stations = passage.track, passage.journey.stations
         shape = passage.positions.shape
-        self._at_stations = track.rail_rows(np.asarray(stations, dtype=float))
+        self.at_stations = track.rail_rows(np.asarray(stations, dtype=float))
         self._stations = np.empty((shape[0], len(stations)))
         self._wheel_u, self._wheel_a = np.empty(shape), np.empty(shape)
         self._rail_u, self._rail_a = np.empty(shape), np.empty(shape)
@@ -55,7 +56,16 @@ class Histories(Watch):
         self._wheel_u[step], self._wheel_a[step] = (row_values(*self._wheels, x) for x in (u, a))
         self._rail_u[step], self._rail_a[step] = (row_values(*rail, x) for x in (u, a))
         if self._stations.size:
-            self._stations[step] = row_values(*self._at_stations, u)
+            self._stations[step] = row_values(*self.at_stations, u)
+
+    def take(self, steps: slice, lane: int, record: LaneRecord) -> None:
+        """Record the states after some steps of a lane."""
+        done = slice(0, steps.stop - steps.start), lane
+        for name, values in self._contact.items():
+            values[steps] = getattr(record, name)[done]
+        self._wheel_u[steps], self._wheel_a[steps] = record.wheel_u[done], record.wheel_a[done]
+        self._rail_u[steps], self._rail_a[steps] = record.rail_u[done], record.rail_a[done]
+        self._stations[steps] = record.station_u[done]
 
     def into(self, data: xr.Dataset) -> xr.Dataset:
         """The labelled histories, with the attributes of a dataset."""

@@ -3,44 +3,31 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
-from contactstudy.arrays import Array, IntArray
 from contactstudy.contact.filters import ContactFilter
-from contactstudy.contact.laws import (
-    ContactLaw,
-    HertzSpring,
-    PressSpring,
-    RigidContact,
-)
+from contactstudy.contact.laws import ContactLaw
 from contactstudy.contact.patch_laws import PatchLaw
-from contactstudy.contact.point_coupling import PointCoupling, PointGaps
 from contactstudy.contact.point_wheel import PointWheel
-from contactstudy.contact.two_directions import LATERAL_STIFFNESS
-from contactstudy.dynamics.stepper import Integrator, average_acceleration, generalised_alpha
+from contactstudy.dynamics.statics import held_by_springs, static_start
+from contactstudy.dynamics.stepper import Integrator
+from contactstudy.exceptions import ContactStudyError, NumericalError
 from contactstudy.irregularity import Profile
 from contactstudy.irregularity.rails import RailProfiles
+from contactstudy.solvers.histories import Histories
 from contactstudy.solvers.journey import Journey
-from contactstudy.solvers.observers import Observer
-from contactstudy.solvers.passage import Passage
-from contactstudy.solvers.point_described import described_law, described_rail, warn_beyond
-from contactstudy.solvers.run import run_through
-from contactstudy.track.beam import BeamTrack
-from contactstudy.track.discrete import DiscreteTrack, not_discrete
-from contactstudy.track.model import Direction, Track
-from contactstudy.track.structure import StructureTrack
-from contactstudy.validation import positive, raise_if
+from contactstudy.solvers.lanes import LaneRun, LaneStepper, in_lanes
+from contactstudy.solvers.observers import Observer, ReportProgress
+from contactstudy.solvers.point_case import LATERAL_STIFFNESS, PointCase, ReadyCase
+from contactstudy.solvers.point_described import warn_beyond
+from contactstudy.solvers.run import described, run_through
+from contactstudy.track.discrete import DiscreteTrack
+from contactstudy.track.model import Track
 from contactstudy.vehicle import Vehicle
 
 if TYPE_CHECKING:
     import xarray as xr
-
-
-RIGID_SPECTRAL_RADIUS = 0.5
-"""Spectral radius of the integrator that a rigid contact gets when none is asked for."""
 
 
 def point_contact(
@@ -95,113 +82,130 @@ def point_contact(
     NumericalError
         When the computation breaks down, with step, time and position.
     """
-    began = time.perf_counter()
-    if integrator is None:
-        rigid = isinstance(law, RigidContact)
-        integrator = generalised_alpha(RIGID_SPECTRAL_RADIUS) if rigid else average_acceleration()
-    discrete = _discretised(track, vehicle) if isinstance(track, Track) else track
-    raise_if(not_discrete(discrete))
-    problems = journey.problems_on(discrete.track, vehicle) + problems_of_rails(
-        discrete, vehicle, law
+    case = PointCase(
+        track,
+        vehicle,
+        irregularity,
+        journey,
+        law,
+        contact_filter,
+        wheel,
+        integrator,
+        lateral_stiffness,
     )
-    problems += positive("lateral_stiffness", lateral_stiffness, "N/m")
-    problems += _law_problems(law, contact_filter, discrete.direction, integrator)
-    for observer in observers:
-        problems += observer.problems_on(journey)
-    raise_if(problems)
+    if any(observer.each_state for observer in observers):
+        return _by_states(case.ready(observers), observers)
+    reports = [o.report for o in observers if isinstance(o, ReportProgress)]
+    (found,) = point_contacts([case], lambda done, of: [report(done, of) for report in reports])
+    if isinstance(found, ContactStudyError):
+        raise found
+    return found
 
-    moving = vehicle if wheel is None else wheel.on(vehicle)
-    passage = Passage(discrete, moving, irregularity, journey)
-    coupling = point_coupling(passage, law, contact_filter, wheel, lateral_stiffness)
-    setup = time.perf_counter() - began
-    told = {"solver": "point", **described_rail(discrete), **described_law(law)}
-    if wheel is not None:
-        told |= {"wheel": "modal", "wheel_modes": len(wheel.shapes)}
-    data = run_through(passage, coupling, integrator, observers, told)
-    data.attrs["seconds_setup"] += setup
-    warn_beyond(law, data)
+
+def point_contacts(
+    cases: Sequence[PointCase], report: Callable[[int, int], object] | None = None
+) -> list[xr.Dataset | ContactStudyError]:
+    """Several runs as `point_contact`, of each its dataset, or the error that ended it.
+
+    Runs on one track with equal vehicles, integrators and time steps are stepped side by side in
+    compiled code. A run's numbers do not depend on the others, nor on how many there are.
+    `report` is called with steps done and steps in all.
+    """
+    found: list[xr.Dataset | ContactStudyError | None] = [None] * len(cases)
+    groups: dict[Any, list[tuple[int, ReadyCase]]] = {}
+    for number, case in enumerate(cases):
+        try:
+            ready = case.ready()
+        except ContactStudyError as error:
+            found[number] = error
+        else:
+            groups.setdefault(ready.system_key, []).append((number, ready))
+    total = sum(ready.passage.journey.n_steps for own in groups.values() for _, ready in own)
+    done = 0
+
+    def tell(steps: int) -> None:
+        nonlocal done
+        done += steps
+        if report is not None:
+            report(done, total)
+
+    for own in groups.values():
+        runs = [ready for _, ready in own]
+        results = _side_by_side(runs, tell) if runs[0].for_lanes else _one_by_one(runs, tell)
+        for (number, _), result in zip(own, results, strict=True):
+            found[number] = result
+    return [one for one in found if one is not None]
+
+
+def _by_states(ready: ReadyCase, observers: Sequence[Observer] = ()) -> xr.Dataset:
+    """Run with all states in sight."""
+    data = run_through(ready.passage, ready.coupling, ready.integrator, observers, ready.told)
+    data.attrs["seconds_setup"] += ready.setup
+    warn_beyond(ready.case.law, data)
     return data
 
 
-def _discretised(track: Track, vehicle: Vehicle) -> DiscreteTrack:
-    """The paper's beam, or the track on a bridge in the motions that the vehicle has."""
-    if track.structure is None:
-        return BeamTrack(track)
-    return StructureTrack(track, planar="Y" not in vehicle.contact_directions)
+def _side_by_side(
+    runs: Sequence[ReadyCase], tell: Callable[[int], object]
+) -> list[xr.Dataset | ContactStudyError]:
+    """Run what shares the factor of S; `tell` is told of steps that were done."""
+    import xarray as xr
+
+    began = time.perf_counter()
+    passage, integrator = runs[0].passage, runs[0].integrator
+    system, external, wheels = passage.system, passage.external, passage.wheels
+    found: dict[int, xr.Dataset | ContactStudyError] = {}
+    ready: dict[int, LaneRun] = {}
+    try:
+        stepper = LaneStepper(system, external, integrator, passage.journey.time_step)
+        held = held_by_springs(system, wheels)
+    except NumericalError as error:
+        return [error] * len(runs)
+    for number, run in enumerate(runs):
+        try:
+            start = static_start(system, run.coupling, external, wheels, held)
+        except NumericalError as error:
+            found[number] = error
+            continue
+        histories = Histories(run.passage)
+        histories.see(start)
+        ready[number] = LaneRun(run.passage, run.coupling, start, histories)
+    setup = (time.perf_counter() - began) / len(runs)
+    numbers = list(ready)
+    for lanes, group in in_lanes(list(ready.values())):
+        began = time.perf_counter()
+        own = [numbers[k] for k in group]
+        broken = stepper.step([ready[k] for k in own], lanes, tell)
+        stepping = (time.perf_counter() - began) / len(own)
+        for number, broke in zip(own, broken, strict=True):
+            run = runs[number]
+            if broke:  # by single states, which say where
+                found[number] = _or_error(run)
+                continue
+            seconds = run.setup + setup, stepping
+            attrs = {**run.told, **described(run.passage, integrator, *seconds)}
+            found[number] = data = ready[number].histories.into(xr.Dataset(attrs=attrs))
+            warn_beyond(run.case.law, data)
+    return [found[number] for number in range(len(runs))]
 
 
-def problems_of_rails(track: DiscreteTrack, vehicle: Vehicle, law: object) -> list[str]:
-    """Complaints about a vehicle with contacts that the track's rails cannot have."""
-    if not isinstance(track, StructureTrack):
-        return vehicle.problems_on_one_rail()
-    if track.planar and not vehicle.planar and isinstance(law, RigidContact):
-        return ["law = RigidContact: both wheels of a wheelset are one on a planar track"]
-    if track.planar and "Y" in vehicle.contact_directions:
-        return ["vehicle: has lateral contacts; a planar track moves vertically only"]
-    if not track.planar and vehicle.planar:
-        return ["vehicle: has contacts on one rail; a track in space needs them on both"]
-    return []
+def _one_by_one(
+    runs: Sequence[ReadyCase], tell: Callable[[int], object]
+) -> list[xr.Dataset | ContactStudyError]:
+    found = []
+    for run in runs:
+        told = [0]
+
+        def report(done: int, _: int, told: list[int] = told) -> None:
+            tell(done - told[0])
+            told[0] = done
+
+        found.append(_or_error(run, [ReportProgress(report)]))
+    return found
 
 
-def point_coupling(
-    passage: Passage[DiscreteTrack],
-    law: ContactLaw | PatchLaw,
-    contact_filter: ContactFilter | None = None,
-    wheel: PointWheel | None = None,
-    lateral_stiffness: float = LATERAL_STIFFNESS,
-) -> PointCoupling:
-    """Join a law to all wheel positions of a passage."""
-    track, x, shape = passage.track, passage.positions.ravel(), passage.positions.shape
-    felt, along = passage.felt(contact_filter), np.zeros((*shape, 0))
-    if isinstance(law, PatchLaw):
-        felt, along = passage.seen(law)
-    # a spring gives back no more than it stands for
-    top = np.maximum(track.top_load_compliance(x), -law.softness)
-    gaps = PointGaps(
-        _wheel_rows(passage, wheel),
-        passage.rail_rows.at,
-        (track.local_compliance(x) + top).reshape(shape),
-        felt,
-        along,
-    )
-    lateral = passage.lateral if passage.lateral.any() else None
-    return PointCoupling(
-        law, gaps, passage.static_loads, track.direction == "Y", lateral, lateral_stiffness
-    )
-
-
-def _wheel_rows(
-    passage: Passage[DiscreteTrack], wheel: PointWheel | None
-) -> tuple[IntArray, Array]:
-    """Dofs and weights (nc, j) of the wheels' displacement at the contact."""
-    dofs, weights = passage.wheels
-    if wheel is None:
-        return dofs, weights
-    n, m = passage.n_dofs, len(wheel.shapes)
-    return np.hstack([dofs, np.arange(n - m, n)[None]]), np.hstack([weights, wheel.shapes[None]])
-
-
-def _law_problems(
-    law: ContactLaw | PatchLaw,
-    contact_filter: ContactFilter | None,
-    direction: Direction,
-    integrator: Integrator,
-) -> list[str]:
-    problems = []
-    name = type(law).__name__
-    if not isinstance(law, ContactLaw | PatchLaw):
-        problems.append(
-            f"law = {law!r}: must be a LinearSpring, RigidContact, HertzSpring, PressSpring, "
-            "MovingForce, WinklerBedding or FollowingPatch"
-        )
-    if direction == "Y" and isinstance(law, HertzSpring | PressSpring | PatchLaw):
-        problems.append(f"law = {name} with direction = 'Y': this law is vertical only")
-    if contact_filter is not None and isinstance(law, PatchLaw):
-        problems.append(f"contact_filter with law = {name}: this law is a filter itself")
-    if isinstance(law, RigidContact) and integrator.constraint_radius > 1.0 - 1e-6:
-        problems.append(
-            f"integrator = {integrator.name!r} with law = RigidContact: without numerical damping"
-            " the force of a rigid contact is unstable; use generalised_alpha with a spectral"
-            " radius below 1"
-        )
-    return problems
+def _or_error(run: ReadyCase, observers: Sequence[Observer] = ()) -> xr.Dataset | ContactStudyError:
+    try:
+        return _by_states(run, observers)
+    except ContactStudyError as error:
+        return error

@@ -52,23 +52,29 @@ def run_through(
             watch.see(state)
     stepping_ended = time.perf_counter()
 
-    data = xr.Dataset(
-        attrs={
-            **(attrs or {}),
-            "integrator": integrator.name,
-            "direction": passage.track.direction,
-            "static_load": [float(load) for load in passage.static_loads[~passage.lateral]],
-            "speed": journey.speed,
-            "travel": journey.travel,
-            "start": journey.start,
-            "fade_in": journey.fade_in,
-            "dofs": passage.n_dofs,
-            "steps": journey.n_steps,
-            "dt": journey.time_step,
-            "seconds_setup": stepping_began - began,
-            "seconds_stepping": stepping_ended - stepping_began,
-        }
-    )
+    seconds = stepping_began - began, stepping_ended - stepping_began
+    data = xr.Dataset(attrs={**(attrs or {}), **described(passage, integrator, *seconds)})
     for watch in watches:
         data = watch.into(data)
     return data
+
+
+def described(
+    passage: Passage[DiscreteTrack], integrator: Integrator, setup: float, stepping: float
+) -> dict[str, object]:
+    """Attributes of the dataset of any run; times in s."""
+    journey = passage.journey
+    return {
+        "integrator": integrator.name,
+        "direction": passage.track.direction,
+        "static_load": [float(load) for load in passage.static_loads[~passage.lateral]],
+        "speed": journey.speed,
+        "travel": journey.travel,
+        "start": journey.start,
+        "fade_in": journey.fade_in,
+        "dofs": passage.n_dofs,
+        "steps": journey.n_steps,
+        "dt": journey.time_step,
+        "seconds_setup": setup,
+        "seconds_stepping": stepping,
+    }

@@ -25,6 +25,11 @@ class TravellingRows:
         X of the contacts [m].
     rails, directions : sequence
         Of each contact.
+
+    Attributes
+    ----------
+    width : int
+        k.
     """
 
     def __init__(
@@ -32,11 +37,11 @@ class TravellingRows:
     ) -> None:
         self._track, self._positions = track, positions
         kinds = list(zip(rails.tolist(), directions, strict=True))
-        self._kinds = {
+        self.widthinds = {
             kind: np.flatnonzero([one == kind for one in kinds]) for kind in dict.fromkeys(kinds)
         }
-        self._k = max(self._of(kind, np.zeros(1))[0].shape[1] for kind in self._kinds)
-        self._length = max(1, _AT_ONCE // (len(kinds) * self._k))
+        self.width: int = max(self._of(kind, np.zeros(1))[0].shape[1] for kind in self.widthinds)
+        self._length = max(1, _AT_ONCE // (len(kinds) * self.width))
         self._first, self._rows = -1, (np.zeros(0, dtype=np.int64), np.zeros(0))
 
     def at(self, step: int) -> tuple[IntArray, Array]:
@@ -47,10 +52,14 @@ class TravellingRows:
         dofs, weights = self._rows
         return dofs[step - first], weights[step - first]
 
+    def between(self, first: int, stop: int) -> tuple[IntArray, Array]:
+        """Rows (steps, nc, k) at steps first .. stop - 1."""
+        return self._made(self._positions[first:stop])
+
     def _made(self, positions: Array) -> tuple[IntArray, Array]:
-        shape = (*positions.shape, self._k)
+        shape = (*positions.shape, self.width)
         dofs, weights = np.zeros(shape, dtype=np.int64), np.zeros(shape)
-        for kind, contacts in self._kinds.items():
+        for kind, contacts in self.widthinds.items():
             of, by = self._of(kind, positions[:, contacts].ravel())
             rows = np.s_[:, contacts, : of.shape[1]]
             dofs[rows] = of.reshape(len(positions), len(contacts), -1)

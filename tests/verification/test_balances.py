@@ -12,7 +12,8 @@ from contactstudy.irregularity import SmoothRail, paper_spectrum, sample_profile
 from contactstudy.solvers.journey import Journey
 from contactstudy.solvers.observers import EachState
 from contactstudy.solvers.passage import Passage
-from contactstudy.solvers.point import point_contact, point_coupling
+from contactstudy.solvers.point import point_contact
+from contactstudy.solvers.point_case import point_coupling
 from contactstudy.solvers.run import run_through
 from contactstudy.track.beam import BeamTrack
 from contactstudy.track.model import Track

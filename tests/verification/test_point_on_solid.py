@@ -16,7 +16,8 @@ from contactstudy.solids.wheel import WheelRecipe, elastic_wheel
 from contactstudy.solvers.at_rest import bodies_at_rest, geometry_press
 from contactstudy.solvers.journey import Journey
 from contactstudy.solvers.passage import Passage
-from contactstudy.solvers.point import point_contact, point_coupling
+from contactstudy.solvers.point import point_contact
+from contactstudy.solvers.point_case import point_coupling
 from contactstudy.solvers.surface import surface_contact
 from contactstudy.track.bay import BayRecipe, bay_compliance
 from contactstudy.track.model import Track, WinklerFoundation
