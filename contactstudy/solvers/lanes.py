@@ -106,8 +106,7 @@ class LaneStepper:
         `report` is told how many steps of how many runs were done since it was told last.
         """
         laws = _laws(runs, lanes)
-        steady = self._system.inverse * self._external
-        steady = np.ascontiguousarray(np.broadcast_to(steady[:, None], (len(steady), lanes)))
+        steady = np.repeat((self._system.inverse * self._external)[:, None], lanes, axis=1)
         state = _state(runs, lanes)
         stations = _stations(runs, lanes)
         broken, first = np.zeros(lanes, dtype=bool), 1
