@@ -10,6 +10,7 @@ from contactstudy.contact.filters import ContactFilter
 from contactstudy.contact.laws import ContactLaw
 from contactstudy.contact.patch_laws import PatchLaw
 from contactstudy.contact.point_wheel import PointWheel
+from contactstudy.contact.two_directions import LATERAL_STIFFNESS
 from contactstudy.dynamics.statics import held_by_springs, static_start
 from contactstudy.dynamics.stepper import Integrator
 from contactstudy.exceptions import ContactStudyError, NumericalError
@@ -19,7 +20,7 @@ from contactstudy.solvers.histories import Histories
 from contactstudy.solvers.journey import Journey
 from contactstudy.solvers.lanes import LaneRun, LaneStepper, in_lanes
 from contactstudy.solvers.observers import Observer, ReportProgress
-from contactstudy.solvers.point_case import LATERAL_STIFFNESS, PointCase, ReadyCase
+from contactstudy.solvers.point_case import PointCase, ReadyCase
 from contactstudy.solvers.point_described import warn_beyond
 from contactstudy.solvers.run import described, run_through
 from contactstudy.track.discrete import DiscreteTrack

@@ -15,6 +15,7 @@ from contactstudy.contact.laws import ContactLaw, HertzSpring, PressSpring, Rigi
 from contactstudy.contact.patch_laws import PatchLaw
 from contactstudy.contact.point_coupling import PointCoupling, PointGaps
 from contactstudy.contact.point_wheel import PointWheel
+from contactstudy.contact.two_directions import LATERAL_STIFFNESS
 from contactstudy.dynamics.stepper import Integrator, average_acceleration, generalised_alpha
 from contactstudy.irregularity import Profile
 from contactstudy.irregularity.rails import RailProfiles
@@ -29,9 +30,6 @@ from contactstudy.track.structure import StructureTrack
 from contactstudy.validation import positive, raise_if
 from contactstudy.vehicle import Vehicle
 
-LATERAL_STIFFNESS = 1e9
-"""N/m, of the contact across the rail without slip: 0.8 of the normal tangent of 1.2 GN/m, the
-ratio 2(1 - nu)/(2 - nu) of R. D. Mindlin, J. Appl. Mech. 16 (1949) 259."""
 RIGID_SPECTRAL_RADIUS = 0.5
 """Spectral radius of the integrator that a rigid contact gets when none is asked for."""
 
@@ -105,9 +103,15 @@ class ReadyCase:
 
     @property
     def for_lanes(self) -> bool:
-        """Whether it is stepped in lanes: contacts in one direction, a beam's narrow band."""
-        rows, columns = self.passage.track.stiffness.nonzero()
-        return self.coupling.lateral is None and int(np.abs(rows - columns).max()) <= NARROW
+        """Whether it is stepped in lanes: contacts in one direction, a beam's narrow band.
+
+        What is seen of a structure takes all of its states.
+        """
+        track = self.passage.track
+        if self.coupling.lateral is not None or isinstance(track, StructureTrack):
+            return False
+        rows, columns = track.stiffness.nonzero()
+        return int(np.abs(rows - columns).max()) <= NARROW
 
     @property
     def told(self) -> dict[str, object]:
