@@ -9,7 +9,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
 from contactstudy.dynamics.stepper import Coupling, State
 from contactstudy.solvers.journey import Journey
@@ -37,9 +37,6 @@ class Watch:
 class Observer(ABC):
     """Something that can watch runs."""
 
-    #: Whether it must see the states; if not, it is told now and then how far a run is.
-    each_state: ClassVar[bool] = True
-
     def problems_on(self, journey: Journey) -> list[str]:
         """Everything that makes watching that journey impossible."""
         return []
@@ -65,7 +62,6 @@ class ReportProgress(Observer):
     """Reports how far a run is, as (steps done, steps), now and then."""
 
     report: Callable[[int, int], object]
-    each_state: ClassVar[bool] = False
 
     def watch(self, passage: Passage[DiscreteTrack], coupling: Coupling) -> Watch:
         """See `Observer`."""

@@ -93,9 +93,8 @@ def point_contact(
         wheel,
         integrator,
         lateral_stiffness,
+        [observer for observer in observers if not isinstance(observer, ReportProgress)],
     )
-    if any(observer.each_state for observer in observers):
-        return _by_states(case.ready(observers), observers)
     reports = [o.report for o in observers if isinstance(o, ReportProgress)]
     (found,) = point_contacts([case], lambda done, of: [report(done, of) for report in reports])
     if isinstance(found, ContactStudyError):
@@ -138,14 +137,6 @@ def point_contacts(
     return [one for one in found if one is not None]
 
 
-def _by_states(ready: ReadyCase, observers: Sequence[Observer] = ()) -> xr.Dataset:
-    """Run with all states in sight."""
-    data = run_through(ready.passage, ready.coupling, ready.integrator, observers, ready.told)
-    data.attrs["seconds_setup"] += ready.setup
-    warn_beyond(ready.case.law, data)
-    return data
-
-
 def _side_by_side(
     runs: Sequence[ReadyCase], tell: Callable[[int], object]
 ) -> list[xr.Dataset | ContactStudyError]:
@@ -181,7 +172,7 @@ def _side_by_side(
         for number, broke in zip(own, broken, strict=True):
             run = runs[number]
             if broke:  # by single states, which say where
-                found[number] = _or_error(run)
+                found[number] = _by_states(run)
                 continue
             seconds = run.setup + setup, stepping
             attrs = {**run.told, **described(run.passage, integrator, *seconds)}
@@ -193,6 +184,7 @@ def _side_by_side(
 def _one_by_one(
     runs: Sequence[ReadyCase], tell: Callable[[int], object]
 ) -> list[xr.Dataset | ContactStudyError]:
+    """Run what needs its states in sight."""
     found = []
     for run in runs:
         told = [0]
@@ -201,12 +193,19 @@ def _one_by_one(
             tell(done - told[0])
             told[0] = done
 
-        found.append(_or_error(run, [ReportProgress(report)]))
+        found.append(_by_states(run, [ReportProgress(report)]))
     return found
 
 
-def _or_error(run: ReadyCase, observers: Sequence[Observer] = ()) -> xr.Dataset | ContactStudyError:
+def _by_states(
+    run: ReadyCase, observers: Sequence[Observer] = ()
+) -> xr.Dataset | ContactStudyError:
+    """Run with all states in sight; its dataset, or the error that ended it."""
+    observers = [*run.case.observers, *observers]
     try:
-        return _by_states(run, observers)
+        data = run_through(run.passage, run.coupling, run.integrator, observers, run.told)
     except ContactStudyError as error:
         return error
+    data.attrs["seconds_setup"] += run.setup
+    warn_beyond(run.case.law, data)
+    return data

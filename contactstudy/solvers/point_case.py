@@ -39,7 +39,7 @@ NARROW = 32
 
 @dataclass(frozen=True, eq=False)
 class PointCase:
-    """A run of `point_contact`, with its arguments."""
+    """A run of `point_contact`, with its arguments; observers make it step state by state."""
 
     track: Track | DiscreteTrack
     vehicle: Vehicle
@@ -50,8 +50,9 @@ class PointCase:
     wheel: PointWheel | None = None
     integrator: Integrator | None = None
     lateral_stiffness: float = LATERAL_STIFFNESS
+    observers: Sequence[Observer] = ()
 
-    def ready(self, observers: Sequence[Observer] = ()) -> ReadyCase:
+    def ready(self) -> ReadyCase:
         """Check the arguments and join the law to all wheel positions."""
         began = time.perf_counter()
         law, journey, vehicle, integrator = self.law, self.journey, self.vehicle, self.integrator
@@ -66,7 +67,7 @@ class PointCase:
         problems += problems_of_rails(discrete, vehicle)
         problems += positive("lateral_stiffness", self.lateral_stiffness, "N/m")
         problems += _law_problems(law, self.contact_filter, discrete.direction, integrator)
-        for observer in observers:
+        for observer in self.observers:
             problems += observer.problems_on(journey)
         raise_if(problems)
         moving = vehicle if self.wheel is None else self.wheel.on(vehicle)
@@ -105,10 +106,10 @@ class ReadyCase:
     def for_lanes(self) -> bool:
         """Whether it is stepped in lanes: contacts in one direction, a beam's narrow band.
 
-        What is seen of a structure takes all of its states.
+        What is seen of a structure, or by observers, takes all states.
         """
-        track = self.passage.track
-        if self.coupling.lateral is not None or isinstance(track, StructureTrack):
+        track, lateral = self.passage.track, self.coupling.lateral
+        if self.case.observers or lateral is not None or isinstance(track, StructureTrack):
             return False
         rows, columns = track.stiffness.nonzero()
         return int(np.abs(rows - columns).max()) <= NARROW

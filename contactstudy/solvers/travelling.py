@@ -37,10 +37,10 @@ class TravellingRows:
     ) -> None:
         self._track, self._positions = track, positions
         kinds = list(zip(rails.tolist(), directions, strict=True))
-        self.widthinds = {
+        self._kinds = {
             kind: np.flatnonzero([one == kind for one in kinds]) for kind in dict.fromkeys(kinds)
         }
-        self.width: int = max(self._of(kind, np.zeros(1))[0].shape[1] for kind in self.widthinds)
+        self.width: int = max(self._of(kind, np.zeros(1))[0].shape[1] for kind in self._kinds)
         self._length = max(1, _AT_ONCE // (len(kinds) * self.width))
         self._first, self._rows = -1, (np.zeros(0, dtype=np.int64), np.zeros(0))
 
@@ -59,11 +59,11 @@ class TravellingRows:
     def _made(self, positions: Array) -> tuple[IntArray, Array]:
         shape = (*positions.shape, self.width)
         dofs, weights = np.zeros(shape, dtype=np.int64), np.zeros(shape)
-        for kind, contacts in self.widthinds.items():
+        for kind, contacts in self._kinds.items():
             of, by = self._of(kind, positions[:, contacts].ravel())
             rows = np.s_[:, contacts, : of.shape[1]]
-            dofs[rows] = of.reshape(len(positions), len(contacts), -1)
-            weights[rows] = by.reshape(len(positions), len(contacts), -1)
+            dofs[rows] = of.reshape(len(positions), len(contacts), of.shape[1])
+            weights[rows] = by.reshape(len(positions), len(contacts), by.shape[1])
         return dofs, weights
 
     def _of(self, kind: tuple[int, Direction], x: Array) -> tuple[IntArray, Array]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import lru_cache
 
 import numpy as np
 
@@ -89,14 +90,18 @@ def point_track(study: Study, table: PointRun, described: Track) -> DiscreteTrac
         planar = planar_on(described, vehicle(study))
         return StructureTrack(described, table.rail, table.elements_per_bay, planar)
     if table.bay_compliance:
-        return corrected_beam(bay_recipe(study, table, described))
-    return BeamTrack(
+        return _corrected(bay_recipe(study, table, described))
+    return _beam(
         described,
         table.rail,
         table.elements_per_bay,
         table.local_compliance,
         table.direction,
     )
+
+
+# Runs of a batch that have equal beams share one, with its matrices.
+_beam, _corrected = lru_cache(maxsize=16)(BeamTrack), lru_cache(maxsize=16)(corrected_beam)
 
 
 def bay_recipe(study: Study, table: PointRun, described: Track) -> BayRecipe:

@@ -10,7 +10,7 @@ from contactstudy.executor import Progress, Task
 from contactstudy.solids.cache import CachedBody, cached, is_cached
 from contactstudy.solids.wheel_recipe import LARGEST_ZONE
 from contactstudy.solvers import observers
-from contactstudy.solvers.car_bodies import CarBodies
+from contactstudy.solvers.car_bodies import CarBodies, bodies
 from contactstudy.solvers.observers import Observer
 from contactstudy.study.kinds.passage import build, contact
 from contactstudy.study.kinds.passage.roughness import irregularity_of, irregularity_of_rails
@@ -22,6 +22,8 @@ from contactstudy.study.kinds.passage.zone import on_large_enough
 if TYPE_CHECKING:
     import xarray as xr
 
+    from contactstudy.solvers.point_case import PointCase
+
 
 def execute_run(study: Study, run: str, progress: Progress | None = None) -> xr.Dataset:
     """Build the domain objects of a run or of its smooth twin, call its solver.
@@ -32,26 +34,31 @@ def execute_run(study: Study, run: str, progress: Progress | None = None) -> xr.
     table = study.runs[run]
     if isinstance(table, SurfaceRun):
         return _surface(study, run, table, progress)
-    return _point(study, run, table, progress)
+    from contactstudy.solvers.point import point_contacts
+
+    (found,) = point_contacts([_point(study, run, table)], progress)
+    if isinstance(found, ContactStudyError):
+        raise found
+    return found
 
 
-def _point(study: Study, run: str, table: PointRun, progress: Progress | None) -> xr.Dataset:
-    from contactstudy.solvers.point import point_contact
+def _point(study: Study, run: str, table: PointRun) -> PointCase:
+    from contactstudy.solvers.point_case import PointCase
 
     vehicle, smooth = build.vehicle(study), table.irregularity == "smooth"
-    return point_contact(
+    return PointCase(
         build.point_track(study, table, build.track(study)),
         vehicle,
         irregularity_of(study, smooth, table.direction)
         if vehicle.planar
         else irregularity_of_rails(study, smooth),
         build.journey(study, run),
-        law=contact.contact_law(study, run),
-        contact_filter=contact.contact_filter(study, run),
-        wheel=contact.point_wheel(study, run),
-        lateral_stiffness=table.lateral_k_r,
-        observers=(*_reports(progress), CarBodies()),
-        integrator=table.method(),
+        contact.contact_law(study, run),
+        contact.contact_filter(study, run),
+        contact.point_wheel(study, run),
+        table.method(),
+        table.lateral_k_r,
+        (CarBodies(),) if bodies(vehicle) else (),
     )
 
 
@@ -86,16 +93,23 @@ def _reports(progress: Progress | None) -> tuple[Observer, ...]:
 def execute_batch(
     runs: Sequence[tuple[Study, str]], progress: Progress | None = None
 ) -> list[xr.Dataset | ContactStudyError]:
-    """As `execute_run`, of runs that share what is dear; of each its dataset, or its error."""
-    found: list[xr.Dataset | ContactStudyError] = []
-    for done, (study, run) in enumerate(runs):
+    """As `execute_run`, of point runs that are stepped side by side; of each dataset or error."""
+    from contactstudy.solvers.point import point_contacts
+
+    found: list[xr.Dataset | ContactStudyError | None] = []
+    cases = list[PointCase]()
+    for study, name in runs:
+        owner, run = untwinned(study, name)
+        table = owner.runs[run]
+        assert isinstance(table, PointRun)
         try:
-            found.append(execute_run(study, run))
+            cases.append(_point(owner, run, table))
         except ContactStudyError as error:
             found.append(error)
-        if progress is not None:
-            progress(done + 1, len(runs))
-    return found
+        else:
+            found.append(None)
+    made = iter(point_contacts(cases, progress))
+    return [next(made) if one is None else one for one in found]
 
 
 def condensing(study: Study, run: str) -> list[Task]:

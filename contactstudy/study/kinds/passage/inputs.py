@@ -164,12 +164,12 @@ def work(study: Study, inputs: Inputs) -> list[Work]:
 
 
 def _batch(study: Study, inputs: Inputs, run: str) -> str:
-    """Hash of what runs share that are stepped together: the matrices, and how far they go."""
+    """Hash of what runs share that are stepped together: the matrices of a step."""
     table = study.resolved_run(run)
     shared = [inputs.config[key] for key in ("track", "vehicle")]
     shared += study.vehicle.data if isinstance(study.vehicle, Train | Bogie) else []
     stepping = [table.get(key) for key in _STEPPING]
-    return digest([shared, study.solid.mesh_size, stepping, journey(study, run).n_steps])
+    return digest([shared, study.solid.mesh_size, stepping, study.time_step(run)])
 
 
 def _run_inputs(study: Study, inputs: Inputs, run: str) -> list[Any]:
