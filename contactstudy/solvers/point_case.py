@@ -12,6 +12,7 @@ import numpy as np
 from contactstudy.arrays import Array, IntArray
 from contactstudy.contact.filters import ContactFilter
 from contactstudy.contact.laws import ContactLaw, HertzSpring, PressSpring, RigidContact
+from contactstudy.contact.many_contacts import FEWEST
 from contactstudy.contact.patch_laws import PatchLaw
 from contactstudy.contact.point_coupling import PointCoupling, PointGaps
 from contactstudy.contact.point_wheel import PointWheel
@@ -64,7 +65,7 @@ class PointCase:
         discrete = _discretised(track, vehicle) if isinstance(track, Track) else track
         raise_if(not_discrete(discrete))
         problems = journey.problems_on(discrete.track, vehicle)
-        problems += problems_of_rails(discrete, vehicle)
+        problems += problems_of_rails(discrete, vehicle, law)
         problems += positive("lateral_stiffness", self.lateral_stiffness, "N/m")
         problems += _law_problems(law, self.contact_filter, discrete.direction, integrator)
         for observer in self.observers:
@@ -104,7 +105,7 @@ class ReadyCase:
 
     @property
     def for_lanes(self) -> bool:
-        """Whether it is stepped in lanes: contacts in one direction, a beam's narrow band.
+        """Whether it is stepped in lanes: few contacts in one direction, a beam's narrow band.
 
         What is seen of a structure, or by observers, takes all states.
         """
@@ -112,7 +113,8 @@ class ReadyCase:
         if self.case.observers or lateral is not None or isinstance(track, StructureTrack):
             return False
         rows, columns = track.stiffness.nonzero()
-        return int(np.abs(rows - columns).max()) <= NARROW
+        few = len(self.coupling.static_loads) < FEWEST
+        return few and int(np.abs(rows - columns).max()) <= NARROW
 
     @property
     def told(self) -> dict[str, object]:
@@ -134,10 +136,12 @@ def _discretised(track: Track, vehicle: Vehicle) -> DiscreteTrack:
     return StructureTrack(track, planar="Y" not in vehicle.contact_directions)
 
 
-def problems_of_rails(track: DiscreteTrack, vehicle: Vehicle) -> list[str]:
+def problems_of_rails(track: DiscreteTrack, vehicle: Vehicle, law: object) -> list[str]:
     """Complaints about a vehicle with contacts that the track's rails cannot have."""
     if not isinstance(track, StructureTrack):
         return vehicle.problems_on_one_rail()
+    if track.planar and not vehicle.planar and isinstance(law, RigidContact):
+        return ["law = RigidContact: both wheels of a wheelset are one on a planar track"]
     if track.planar and "Y" in vehicle.contact_directions:
         return ["vehicle: has lateral contacts; a planar track moves vertically only"]
     if not track.planar and vehicle.planar:
