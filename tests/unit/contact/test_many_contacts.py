@@ -12,7 +12,7 @@ from contactstudy.dynamics.columns import LocalColumns
 from contactstudy.irregularity import paper_spectrum, sample_profile
 from contactstudy.solvers.journey import Journey
 from contactstudy.solvers.passage import Passage
-from contactstudy.solvers.point import point_coupling
+from contactstudy.solvers.point_case import point_coupling
 from contactstudy.track.bridge import Bridge
 from contactstudy.track.model import Track
 from contactstudy.track.structure import StructureTrack
