@@ -1,20 +1,25 @@
 """The command line: what it does with any command, and with what goes wrong in it.
 
-Exit status 0, 1 (broke down, or a check fails), 2 (input), 130 (interrupted).
+Exit status 0, 1 (broke down, a check fails, or no room to write), 2 (input), 130 (interrupted), 141
+(nobody reads what is printed), 143 (terminated).
 """
 
 from __future__ import annotations
 
+import contextlib
 import io
 import os
 import signal
 import sys
 import threading
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from types import FrameType
 
-from contactstudy.exceptions import ContactStudyError, InputError
+from contactstudy.exceptions import ContactStudyError, InputError, reason
 from contactstudy.process import ONE_THREAD
 from contactstudy.texts import visible
+
+_ENDING = (signal.SIGINT, signal.SIGTERM)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -26,25 +31,64 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if isinstance(stream, io.TextIOWrapper):  # a console without our characters shows "?"
             stream.reconfigure(errors="replace")
     tokens = list(sys.argv[1:] if arguments is None else arguments)
-    if (
-        signal.getsignal(signal.SIGINT) is signal.SIG_IGN
-        and threading.current_thread() is threading.main_thread()
-    ):
-        # a shell starts background jobs of a script this way; an interrupt that is sent to a
-        # long computation by name shall end it all the same
-        signal.signal(signal.SIGINT, signal.default_int_handler)
+    with _interrupts():
+        status = _status(tokens)
+    if arguments is None and status in (130, 143):  # it is not interrupted in ending
+        for number in _ENDING:
+            signal.signal(number, signal.SIG_IGN)
+    return status
+
+
+def _status(tokens: Sequence[str]) -> int:
+    """Call a command; its exit status, with a message where that is not 0."""
     try:
         _call(tokens)
+        if sys.stdout is not None:
+            sys.stdout.flush()  # who does not read is found out here, not at the exit
     except ContactStudyError as error:
         _complain(str(error))
         return error.exit_status
-    except KeyboardInterrupt:
-        _complain("interrupted; finished runs are kept, the same command goes on from there")
-        return 130
+    except KeyboardInterrupt as stop:
+        how = "terminated" if stop.args == (signal.SIGTERM,) else "interrupted"
+        _complain(f"{how}; finished runs are kept, the same command goes on from there")
+        return 143 if how == "terminated" else 130
     except BrokenPipeError:  # output piped into a program that has stopped reading
-        sys.stderr.close()
+        _print_no_more()
         return 141
+    except MemoryError:
+        _complain("out of memory; finished runs are kept, the same command goes on from there")
+        return 1
+    except OSError as error:
+        _print_no_more()
+        _complain(f"{error.filename or 'standard output'}: {reason(error)}")
+        return 1
     return 0
+
+
+def _print_no_more() -> None:
+    """What is left to print goes nowhere, so that Python does not stumble over it at the exit."""
+    with contextlib.suppress(OSError, AttributeError, ValueError):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+@contextlib.contextmanager
+def _interrupts() -> Iterator[None]:
+    """Meanwhile Ctrl-C and SIGTERM end a command.
+
+    A shell starts background jobs of a script with interrupts ignored; one that is sent to a long
+    computation by name shall end it all the same.
+    """
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = {number: signal.signal(number, _interrupt) for number in _ENDING}
+    yield
+    for number, handler in before.items():
+        signal.signal(number, handler or signal.SIG_DFL)
+
+
+def _interrupt(number: int, frame: FrameType | None) -> None:
+    raise KeyboardInterrupt(number)
 
 
 def _call(tokens: Sequence[str]) -> None:

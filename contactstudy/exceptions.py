@@ -41,7 +41,7 @@ _REASONS = {
     errno.EPERM: "you may not do that",
     errno.EROFS: "the disk is read-only",
     errno.ENOTDIR: "a part of its path is a file, not a folder",
-    errno.EEXIST: "a part of its path is a file, not a folder",
+    errno.EEXIST: "a part of its path is a file or a broken link, not a folder",
     errno.EISDIR: "it is a folder",
     errno.ENOTEMPTY: "it is a folder",
     errno.ENOENT: "there is no such folder",

@@ -24,6 +24,7 @@ LONGEST_NAME = 100
 """Characters of a name that files are called by; with what is added, most disks take 255 bytes."""
 # https://learn.microsoft.com/windows/win32/fileio/naming-a-file
 _DEVICES = {"con", "prn", "aux", "nul", *(f"{d}{n}" for d in ("com", "lpt") for n in range(1, 10))}
+_LONGEST_SHOWN = 300  # characters of a path in a message
 _NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
 
 
@@ -165,6 +166,10 @@ def ensure_writable(directory: Path) -> None:
 @contextlib.contextmanager
 def _said_of(path: Path, size: int = 0) -> Iterator[None]:
     """Say in our words why a file of `size` bytes cannot be written."""
+    folder = str(path.parent)
+    folder = folder if len(folder) < _LONGEST_SHOWN else f"{folder[:100]}..."
+    if "\0" in folder:
+        raise InputError(f"output folder {folder}: cannot be written (a zero byte in the name)")
     try:
         yield
     except OSError as error:
@@ -175,7 +180,7 @@ def _said_of(path: Path, size: int = 0) -> Iterator[None]:
             again = "make room and give the same command again; what is finished is kept"
             raise StorageError(f"{path}: cannot be written ({told}); {again}") from error
         raise InputError(
-            f"output folder {path.parent}: cannot be written ({reason(error)}); "
+            f"output folder {folder}: cannot be written ({reason(error)}); "
             "give a folder that can be made and written with --out"
         ) from error
 

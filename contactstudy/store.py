@@ -101,8 +101,8 @@ class Store:
             return Kept(self.form.read(path) if self.form else slip["value"], about)
         except FileNotFoundError:
             return Kept(damage=f"{path}: is damaged (its checksum is missing)")
-        except _UNREADABLE as error:
-            return Kept(damage=f"{path}: is damaged ({error})")
+        except _UNREADABLE:
+            return Kept(damage=f"{path}: is damaged (it cannot be read)")
 
     def about(self, name: str, key: str) -> Mapping[str, Any] | None:
         """What was said about an entry when it was saved; None if it is not there."""

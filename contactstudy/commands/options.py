@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
-from cyclopts import Parameter
+from cyclopts import Parameter, Token
 
 from contactstudy.exceptions import InputError
 from contactstudy.reporter import Quiet, Reporter
@@ -51,7 +52,15 @@ Scheduler = Annotated[
 Overwrite = Annotated[
     bool, Parameter(negative="", help="Replace the results of another study in the folder.")
 ]
-Out = Annotated[Path, Parameter(name=["--out", "-o"])]
+
+
+def _path(kind: Any, tokens: Sequence[Token]) -> Path:
+    if not tokens[0].value:  # an empty variable of a shell is not the folder at hand
+        raise InputError("--out: is empty; give the name of a folder, or . for this one")
+    return Path(tokens[0].value)
+
+
+Out = Annotated[Path, Parameter(name=["--out", "-o"], converter=_path)]
 
 
 Json = Annotated[

@@ -6,6 +6,7 @@ from typing import Any
 
 import typst
 
+from contactstudy.exceptions import ContactStudyError
 from contactstudy.plot.fonts import font_folder, foreign, lacking
 from contactstudy.resources import resource
 
@@ -24,11 +25,17 @@ def typeset(template: tuple[str, ...], data: dict[str, Any], out_dir: Path) -> b
     files: Any = {name: resource("report", name).read_bytes() for name in (*template, *_SHARED)}
     files["main.typ"] = files.pop(template[0])
     files["data.json"] = text.encode("utf-8", "replace")
-    pdf: bytes = typst.compile(
-        files,
-        root=out_dir,
-        font_paths=[font_folder()] if foreign(text) else [],
-        ignore_system_fonts=not lacking(text),
-        timestamp=0,
-    )
+    try:
+        pdf: bytes = typst.compile(
+            files,
+            root=out_dir,
+            font_paths=[font_folder()] if foreign(text) else [],
+            ignore_system_fonts=not lacking(text),
+            timestamp=0,
+        )
+    except RuntimeError as error:
+        raise ContactStudyError(
+            f"{out_dir}: the report cannot be typeset; the results are written. Is a figure gone, "
+            "or damaged? The same command draws and sets them again"
+        ) from error
     return pdf

@@ -85,6 +85,8 @@ def read_texts(
             entry = entries(found).get(parts[-1])
             if entry is not None and entry.parameter.only_text:
                 value = written  # 60E1 is a profile, not 600
+        if key in values:
+            problems.append(f"{option} {text}: {key} is given twice; give it once")
         values[key] = value
     return values, problems
 

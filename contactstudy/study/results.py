@@ -188,6 +188,8 @@ def _dataset(node: Any) -> xr.Dataset:
 
 
 def _unreadable(out_dir: Path, error: Exception) -> InputError:
+    missing = isinstance(error, FileNotFoundError)
+    why = "a file of them is missing" if missing else "they are damaged, or of another program"
     return InputError(
-        f"{out_dir}: cannot be read as results of a study ({error}); run the study again"
+        f"{out_dir}: cannot be read as results of a study ({why}); run the study again"
     )

@@ -22,7 +22,7 @@ from rich.progress import (
     TimeElapsedColumn,
     TimeRemainingColumn,
 )
-from rich.table import Table
+from rich.table import Column, Table
 from rich.text import Text
 
 from contactstudy.reporter import Reporter
@@ -152,7 +152,7 @@ class Checked:
         for warning in self.warnings:
             console.print(visible(f"warning: {warning}"), soft_wrap=True)
         units = study.units()
-        values = Table("key", "value", "SI unit", show_header=True)
+        values = Table(*(Column(name, overflow="fold") for name in ("key", "value", "SI unit")))
         for key, value in _flat(study.config()):
             values.add_row(key, _text(value), units.get(key, ""))
         console.print(values)

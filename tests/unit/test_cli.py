@@ -241,7 +241,53 @@ def test_a_run_that_breaks_down_keeps_the_others(capfd, short, tmp_path, monkeyp
     assert not (out / "result.nc").exists()
 
 
-def test_interrupt_leaves_whole_files_and_the_next_call_goes_on(short, tmp_path):
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        (["run", "smooth_rail", "--out", ""], "--out: is empty; give the name of a folder"),
+        (["run", "smooth_rail", "--out", "a\0b/c"], r"a\x00b/c: cannot be written (a zero byte"),
+        (["run", "smooth_rail", "--out", "x" * 300], "its name is too long"),
+        (["run", "smooth_rail", "--out", "/".join(["y" * 200] * 30)], "its name is too long"),
+        (["check", "smooth_rail", "--set", "journey.speed=1 m/s", "--set", "journey.speed=2 m/s"],
+         "--set journey.speed=2 m/s: journey.speed is given twice"),
+        (["rn"], 'Did you mean "run"?'),
+        (["check", ""], "no such file nor shipped study"),
+    ],
+)  # fmt: skip
+def test_odd_arguments(capfd, tmp_path, monkeypatch, arguments, told):
+    monkeypatch.chdir(tmp_path)
+    err = refused(capfd, *arguments)
+    assert told in err and len(err) < 700
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_link_to_nowhere_as_folder(capfd, short, tmp_path):
+    (tmp_path / "link").symlink_to(tmp_path / "gone" / "folder")
+    assert "a broken link" in refused(capfd, "run", short, "--out", tmp_path / "link")
+
+
+def test_narrow_consoles_show_whole_values(capfd, short, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "30")
+    assert cli.main(["check", str(short)]) == 0
+    out = capfd.readouterr().out
+    assert "\N{HORIZONTAL ELLIPSIS}" not in out
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full")
+def test_output_that_nobody_takes():
+    """A pipe into a program that stops reading, a full disk, and a closed standard output."""
+    command = f"{sys.executable} -m contactstudy.cli keys"
+    for shell, status, told in (
+        (f"{command} | head -1 > /dev/null; exit ${{PIPESTATUS[0]}}", 141, ""),
+        (f"{command} > /dev/full", 1, "contactstudy: standard output: the disk is full\n"),
+        (f"{command} >&-", 0, ""),
+    ):
+        made = subprocess.run(["bash", "-c", shell], capture_output=True, text=True, check=False)
+        assert (made.returncode, made.stderr) == (status, told), shell
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_interrupt_leaves_whole_files_and_the_next_call_goes_on(short, tmp_path, number):
     """Ctrl-C as a terminal sends it: to the command and all its workers."""
     text = SHORT.replace('"0.2 ms"', '"0.4 us"')  # the runs take minutes
     short.write_text(text + '[runs.quick]\nsolver = "point"\ntime_step = "0.2 ms"\n')
@@ -258,10 +304,12 @@ def test_interrupt_leaves_whole_files_and_the_next_call_goes_on(short, tmp_path)
         assert process.poll() is None, process.communicate()
         assert time.monotonic() < deadline
         time.sleep(0.05)
-    os.killpg(process.pid, signal.SIGINT)
+    os.killpg(process.pid, number)
     _, err = process.communicate(timeout=30)
-    assert process.returncode == 130
-    assert "interrupted" in err and "Traceback" not in err and err.count("\n") == 1
+    assert process.returncode == 128 + number
+    told = {signal.SIGINT: "interrupted", signal.SIGTERM: "terminated"}[number]
+    (line,) = [line for line in err.splitlines() if not line.startswith("runs.")]
+    assert line.startswith(f"contactstudy: {told}; finished runs are kept")
     left = sorted(p.name for p in out.rglob("*") if p.is_file())
     assert left.pop(0) == "plan.json"  # for `contactstudy status`
     assert len(left) == 2 and all(name.startswith("quick-") for name in left)
