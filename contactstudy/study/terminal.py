@@ -40,7 +40,10 @@ _LONG = 12  # values of a list
 
 def console(stderr: bool = False, quiet: bool = False) -> Console:
     """What commands print on: texts are shown as they are, and nothing in them is markup."""
-    return Console(stderr=stderr, quiet=quiet, markup=False, emoji=False)
+    made = Console(stderr=stderr, quiet=quiet, markup=False, emoji=False)
+    if not stderr:  # a table that is folded by the terminal is whole, one squeezed into it is not
+        made.width = max(made.width, 80)
+    return made
 
 
 class TerminalReporter:
