@@ -38,8 +38,22 @@ Quick = Annotated[
     bool, Parameter(name="--quick", negative="", help="With the values of the table [quick].")
 ]
 
+
+def whole(kind: Any, tokens: Sequence[Token]) -> int:
+    """A whole number; cyclopts takes 1.5 for 2."""
+    text = tokens[0].value
+    if not text.isascii() or not text.removeprefix("-").isdigit() or len(text) > 9:
+        raise InputError(f'{tokens[0].keyword} "{text}": must be a whole number at least 1')
+    return int(text)
+
+
 Workers = Annotated[
-    int, Parameter(name=["--workers", "-j"], help="Processes that compute at the same time.")
+    int,
+    Parameter(
+        name=["--workers", "-j"],
+        converter=whole,
+        help="Processes that compute at the same time.",
+    ),
 ]
 
 Scheduler = Annotated[
@@ -56,7 +70,7 @@ Overwrite = Annotated[
 
 def _path(kind: Any, tokens: Sequence[Token]) -> Path:
     if not tokens[0].value:  # an empty variable of a shell is not the folder at hand
-        raise InputError("--out: is empty; give the name of a folder, or . for this one")
+        raise InputError("--out: is empty; give a name, or . for this folder")
     return Path(tokens[0].value)
 
 

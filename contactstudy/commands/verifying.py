@@ -7,7 +7,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from contactstudy.commands.options import TALKING, Out, Telling
+from contactstudy.commands.options import TALKING, Out, Telling, whole
 from contactstudy.exceptions import ContactStudyError
 
 
@@ -16,7 +16,7 @@ def verify(
     out: Out = Path("reports/verification"),
     quick: Annotated[bool, Parameter(negative="", help="Leave out what takes long.")] = False,
     workers: Annotated[
-        int, Parameter(name=["--workers", "-j"], help="Cases at the same time.")
+        int, Parameter(name=["--workers", "-j"], converter=whole, help="Cases at the same time.")
     ] = 2,
     listing: Annotated[bool, Parameter(name="--list", negative="")] = False,
     telling: Telling = TALKING,

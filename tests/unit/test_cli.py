@@ -244,12 +244,14 @@ def test_a_run_that_breaks_down_keeps_the_others(capfd, short, tmp_path, monkeyp
 @pytest.mark.parametrize(
     ("arguments", "told"),
     [
-        (["run", "smooth_rail", "--out", ""], "--out: is empty; give the name of a folder"),
+        (["run", "smooth_rail", "--out", ""], "--out: is empty; give a name"),
         (["run", "smooth_rail", "--out", "a\0b/c"], r"a\x00b/c: cannot be written (a zero byte"),
         (["run", "smooth_rail", "--out", "x" * 300], "its name is too long"),
         (["run", "smooth_rail", "--out", "/".join(["y" * 200] * 30)], "its name is too long"),
         (["check", "smooth_rail", "--set", "journey.speed=1 m/s", "--set", "journey.speed=2 m/s"],
          "--set journey.speed=2 m/s: journey.speed is given twice"),
+        (["run", "smooth_rail", "--out", "x", "-j", "1.5"], '-j "1.5": must be a whole number'),
+        (["verify", "--workers", "two"], '--workers "two": must be a whole number at least 1'),
         (["rn"], 'Did you mean "run"?'),
         (["check", ""], "no such file nor shipped study"),
     ],
