@@ -9,6 +9,8 @@ from pathlib import Path
 from contactstudy.exceptions import InputError
 from contactstudy.given_files import file_text
 
+MOST_ROWS = 1_000_000
+"""Of a CSV file: so many are read in ten seconds and half a gigabyte."""
 _SHOWN = 10  # faults of one kind that are listed before "and n more"
 
 
@@ -18,11 +20,19 @@ def read_rows(path: Path) -> list[tuple[int, list[str]]]:
     ``InputError`` if the file cannot be read, or is empty.
     """
     text = file_text(path, "CSV")
+    if (count := text.count("\n")) > MOST_ROWS:
+        raise InputError(f"{path}: has {count} lines; allowed: up to {MOST_ROWS}")
     try:
         reader = csv.reader(io.StringIO(text, newline=""))
         rows = [(reader.line_num, cells) for cells in reader if any(c.strip() for c in cells)]
     except csv.Error as error:
         raise InputError(f"{path}: this is not a CSV file ({error})") from None
+    if rows and len(rows[0][1]) == 1 and (mark := re.search(r"[;\t]", rows[0][1][0])):
+        shown = {";": "semicolons", "\t": "tabs"}[mark[0]]
+        raise InputError(
+            f"{path}, line {rows[0][0]}: its columns are parted by {shown}; allowed: commas, and a "
+            "decimal point"
+        )
     if not rows:
         raise InputError(f"{path}: the file is empty; allowed: a header line and numbers")
     return rows

@@ -50,6 +50,10 @@ TAPE = 0.07
 TIP = (-0.08, -0.025)
 """Where a flange's tip, or what a worn or cut one has left of it, lies from the tape circle [m]."""
 _FLANGE = 8e-3  # depth [m] that no tread has beside its flange
+_SECOND = 0.6
+"""Share of the flange's depth that no wheel has on its other side."""
+_WIDEST_HEAD = 0.085
+"""Width of a rail's head [m] above which both its sides must be seen."""
 _BULGE = 2e-3  # height [m] of a head's middle over its sides
 
 
@@ -62,9 +66,13 @@ class Found:
     told: str
     #: y of a flange's tip from the tape circle [m].
     tip: float = 0.5 * sum(TIP)
+    #: What else it looks like.
+    other: str = ""
 
     def faults(self, body: str, ways: Sequence[Way] = ("own", "own")) -> list[str]:
         """Axes that point elsewhere than stated by `ways`, and what to state instead."""
+        if self.other:
+            return [self.other]
         found = []
         if self.y > 0 and self.z > 0 and not TIP[0] <= self.tip <= TIP[1]:
             found.append(
@@ -98,7 +106,14 @@ def shape_of_wheel(points: Array) -> Found:
     way = "hangs down" if off[k] < 0 else "stands up"
     side = "the flange's side, y < 0" if y < 0 else "the field side, y > 0"
     told = f"the flange {way} by {1e3 * abs(off[k]):.1f} mm on {side}"
-    return Found(1 if y < 0 else -1, 1 if off[k] < 0 else -1, told, float(points[k, 0]))
+    beyond = (points[:, 0] - (points[k, 0] - y)) * y < 0.0
+    second = float((off[beyond] / off[k]).max(initial=0.0))
+    other = ""
+    if second > _SECOND:
+        other = f"{way} on both sides, by {1e3 * abs(off[k]):.1f} and "
+        other += f"{1e3 * abs(second * off[k]):.1f} mm, as the head of a rail"
+    up: Literal[-1, 1] = 1 if off[k] < 0 else -1
+    return Found(1 if y < 0 else -1, up, told, float(points[k, 0]), other)
 
 
 def shape_of_rail(points: Array) -> Found:
@@ -109,6 +124,11 @@ def shape_of_rail(points: Array) -> Found:
     if abs(off[k]) < _BULGE:
         return Found(0, 0, "no sides of a head")
     way = "hang down" if off[k] < 0 else "stand up"
-    return Found(
-        0, 1 if off[k] < 0 else -1, f"the head's sides {way} by {1e3 * abs(off[k]):.1f} mm"
-    )
+    told = f"the head's sides {way} by {1e3 * abs(off[k]):.1f} mm"
+    beyond = (points[:, 0] - middle) * (points[k, 0] - middle) < 0.0
+    second = float((off[beyond] / off[k]).max(initial=0.0))
+    other = ""
+    if np.ptp(points[:, 0]) > _WIDEST_HEAD and second < 1.0 - _SECOND:
+        side = "hangs down" if off[k] < 0 else "stands up"
+        other = f"one side only {side}, by {1e3 * abs(off[k]):.1f} mm, as the flange of a wheel"
+    return Found(0, 1 if off[k] < 0 else -1, told, other=other)

@@ -87,7 +87,7 @@ def _wheel(points: Array, tape: float) -> Found:
         axis = 0.5 * (x.min() + x.max()), 0.5 * (z.min() + z.max())
         height = -np.hypot(x - axis[0], z - axis[1])
         found = shape_of_wheel(np.stack([y - tape, height], axis=-1))
-        return Found(found.y, 1, found.told, found.tip)
+        return Found(found.y, 1, found.told, found.tip, found.other)
     band = np.abs(y - tape) < _BAND
     if np.count_nonzero(band) < 20:
         return Found(0, 0, "no tread at the tape circle")
@@ -99,5 +99,5 @@ def _wheel(points: Array, tape: float) -> Found:
     found = shape_of_wheel(np.stack([y - tape, sign * height], axis=-1))
     if sign < 0.0:
         told = f"the tread curves downwards to both sides along the rail; {found.told}"
-        return Found(found.y, -1, told)
+        return Found(found.y, -1, told, other=found.other)
     return found

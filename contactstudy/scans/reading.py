@@ -21,6 +21,10 @@ if TYPE_CHECKING:
 
 UNITS = {"mm": 1e-3, "m": 1.0, "cm": 1e-2, "um": 1e-6, "in": 25.4e-3}
 """Length units of a file, in m."""
+MOST_TRIANGLES = 1_000_000
+"""Of a scan."""
+LARGEST = 2**28
+"""Bytes of its file: text takes 250 a triangle, binary STL 50."""
 Ways3 = tuple[Way, Way, Way]
 OWN3: Ways3 = ("own", "own", "own")
 SUFFIXES = (".stl", ".ply", ".obj")
@@ -79,7 +83,7 @@ def _triangles(file: Path) -> tuple[Array, IntArray]:
 
     if file.suffix.lower() not in SUFFIXES:
         raise InputError(f"{file}: not a scan by its name; allowed: {', '.join(SUFFIXES)}")
-    content, form = file_content(file), file.suffix[1:].lower()
+    content, form = file_content(file, LARGEST), file.suffix[1:].lower()
     if form == "stl" and (fault := _stl_fault(content)):
         raise InputError(f"{file}: {fault}")
     try:
@@ -93,6 +97,11 @@ def _triangles(file: Path) -> tuple[Array, IntArray]:
         ) from error
     if not isinstance(mesh, trimesh.Trimesh) or len(mesh.faces) == 0:
         raise InputError(f"{file}: has no triangles; a scan must be triangulated, not points alone")
+    if len(mesh.faces) > MOST_TRIANGLES:
+        raise InputError(
+            f"{file}: has {len(mesh.faces)} triangles; allowed: up to {MOST_TRIANGLES} (cut out "
+            "the running surface, or make the mesh coarser)"
+        )
     return np.asarray(mesh.vertices, dtype=float), np.asarray(mesh.faces, dtype=np.int64)
 
 

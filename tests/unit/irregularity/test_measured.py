@@ -15,9 +15,13 @@ def _wave(path, x, level, name="level_mm"):
     return _write(path, "\n".join([f"x,{name}", *lines]) + "\n")
 
 
-@pytest.mark.parametrize(("unit", "scale"), [("m", 1.0), ("mm", 1e-3), ("um", 1e-6)])
-def test_unit_and_origin(tmp_path, unit, scale):
-    file = _write(tmp_path / "a.csv", "km,z\n98000,.01\n98001,.03\n98002,.02\n98003,.05\n")
+# levels of hundredths in m and mm, of tens in um
+@pytest.mark.parametrize(
+    ("unit", "digits", "scale"), [("m", ".0", 1.0), ("mm", ".0", 1e-3), ("um", "", 1e-4)]
+)
+def test_unit_and_origin(tmp_path, unit, digits, scale):
+    rows = [f"{x},{digits}{level}" for x, level in zip(range(98000, 98004), "1325", strict=True)]
+    file = _write(tmp_path / "a.csv", "\n".join(["km,z", *rows]) + "\n")
     profile = measured_profile(
         file, "z", unit, x_column="km", origin=98000.0, interpolation="linear"
     )

@@ -131,3 +131,21 @@ def test_the_band_pass_is_sound_a_longest_wavelength_from_the_ends(tmp_path):
     rms = float(np.sqrt(np.mean(np.square(errors))))
     print(f"error a longest wavelength from an end: {rms:.3f} of the level's own size (1/12)")
     assert rms < 0.12
+
+
+@pytest.mark.parametrize("unit", ["mm", "m"])
+def test_a_level_of_next_to_nothing_has_the_wrong_unit(tmp_path, unit):
+    """Metres that are called micrometres, and whatever else leaves less than a polished rail."""
+    rows = cells(1)
+    factor = 1e-6 if unit == "mm" else 1e-9
+    rows = [rows[0], *([x, f"{factor * float(level):.15f}"] for x, level in rows[1:])]
+    with pytest.raises(InputError, match=r"standard deviation of .* um .*is the unit right"):
+        read(tmp_path, rows, unit=unit)
+
+
+@pytest.mark.parametrize(("mark", "name"), [(";", "semicolons"), ("\t", "tabs")])
+def test_other_separators_are_named(tmp_path, mark, name):
+    file = tmp_path / "record.csv"
+    file.write_text("\n".join(mark.join(row) for row in cells(2)) + "\n", "utf-8")
+    with pytest.raises(InputError, match=f"parted by {name}"):
+        measured_profile(file, "level", "mm")

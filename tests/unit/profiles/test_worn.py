@@ -173,3 +173,12 @@ def test_one_spike_hardly_changes_the_curve(tmp_path, name):
     assert "left out" in curves[1].notes[0] and "line" in curves[1].notes[0]
     s = np.linspace(-0.007, 0.007, 141)  # between the joints of arcs
     assert curves[1].curvature(s) == pytest.approx(curves[0].curvature(s), abs=0.1)
+
+
+@pytest.mark.parametrize("name", ["60E1", "S1002"])
+def test_a_rail_is_no_wheel_and_a_wheel_no_rail(tmp_path, name):
+    other = {"rail": "wheel", "wheel": "rail"}[body_of(name)]
+    ends = (-0.0455, 0.0455 if name == "60E1" else 0.055)
+    file = write(tmp_path / "wrong.csv", drawn(name).point(np.arange(*ends, STEP)))
+    with pytest.raises(InputError, match=f"does not look like a {other}"):
+        worn_curve(file, other)
