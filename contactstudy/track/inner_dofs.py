@@ -129,12 +129,19 @@ class InnerDofs:
         """Dofs (m, k), -1 for none, and the values of their shapes (m, k) at local xi (m,)."""
         dofs = self.slots[element]
         values = np.zeros(dofs.shape)
-        for shape in set(self.shapes):
-            same = np.array([*(s is shape for s in self.shapes), False])  # -1 is no dof
-            rows, columns = np.nonzero(same[dofs])
+        different, numbers = self._different
+        for number, shape in enumerate(different):
+            rows, columns = np.nonzero(numbers[dofs] == number)
             deflection, _ = shape(xi[rows] * shape.element.length)
             values[rows, columns] = deflection / self.flexibility[dofs[rows, columns]]
         return dofs, values
+
+    @cached_property
+    def _different(self) -> tuple[list[InnerShape], IntArray]:
+        """The different shapes, and the number of each dof's; last, for the dof -1, none."""
+        different = list(dict.fromkeys(self.shapes))
+        numbers = {shape: number for number, shape in enumerate(different)}
+        return different, np.array([*(numbers[shape] for shape in self.shapes), -1])
 
     def compliance(self, element: IntArray, xi: Array) -> Array:
         """Share of the inner dofs in the compliance of the clamped element, (m,) [m/N]."""

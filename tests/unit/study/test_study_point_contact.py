@@ -10,7 +10,7 @@ from contactstudy.contact.laws import HertzSpring, LinearSpring, PressSpring
 from contactstudy.contact.patch_laws import FollowingPatch, WinklerBedding
 from contactstudy.halfspace.hertz import contact_modulus, hertz_contact
 from contactstudy.study.kinds.passage import build, contact
-from contactstudy.study.kinds.passage.execution import execute_run
+from contactstudy.study.kinds.passage.execution import execute_batch, execute_run
 from contactstudy.study.kinds.passage.runs import PointRun
 from contactstudy.study.kinds.passage.schema import Study
 from contactstudy.study.loading import load_study
@@ -141,3 +141,18 @@ def test_filters_act_in_runs(tmp_path: Path) -> None:
     # all three average over the patch; a rigid wheel bridges little of waves of some um
     assert max(means) < 0.9 and max(means) - min(means) < 0.02
     assert spread["trajectory"] == pytest.approx(1.0, abs=0.02)
+
+
+def test_a_batch_gives_each_run_as_alone(tmp_path):
+    own = [{"k_r": f"{k} GN/m"} for k in (1, 2, 3, 5)] + [{"k_r": "1 GN/m", "rail": "timoshenko"}]
+    studies = [study(tmp_path, **keys) for keys in own]
+    told = []
+    found = execute_batch(
+        [(one, "one") for one in studies],
+        lambda done, of: told.append((done, of)),
+    )
+    assert told[-1][0] == told[-1][1] == sum(run.attrs["steps"] for run in found)
+    for run, one in zip(found, studies, strict=True):
+        alone = execute_run(one, "one")
+        for name in alone.data_vars:
+            np.testing.assert_array_equal(run[name], alone[name])

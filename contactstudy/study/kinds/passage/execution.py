@@ -97,7 +97,7 @@ def execute_batch(
     from contactstudy.solvers.point import point_contacts
 
     found: list[xr.Dataset | ContactStudyError | None] = []
-    cases = list[PointCase]()
+    cases: list[PointCase] = []
     for study, name in runs:
         owner, run = untwinned(study, name)
         table = owner.runs[run]
