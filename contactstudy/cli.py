@@ -7,8 +7,10 @@ Exit status 0, 1 (broke down, a check fails, or no room to write), 2 (input), 13
 from __future__ import annotations
 
 import contextlib
+import errno
 import io
 import os
+import re
 import signal
 import sys
 import threading
@@ -61,7 +63,7 @@ def _status(tokens: Sequence[str]) -> int:
     except OSError as error:
         _print_no_more()
         _complain(f"{error.filename or 'standard output'}: {reason(error)}")
-        return 1
+        return 2 if error.errno == errno.ENAMETOOLONG else 1
     return 0
 
 
@@ -106,7 +108,8 @@ def _call(tokens: Sequence[str]) -> None:
 
 
 def _complain(text: str) -> None:
-    lines = visible(text).split("\n")
+    short = re.sub(r"\S{300,}", lambda word: f"{word[0][:100]}...", text)
+    lines = visible(short).split("\n")
     print(
         f"contactstudy: {lines[0]}", *(f"  {line}" for line in lines[1:]), sep="\n", file=sys.stderr
     )

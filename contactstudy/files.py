@@ -168,8 +168,8 @@ def _said_of(path: Path, size: int = 0) -> Iterator[None]:
     """Say in our words why a file of `size` bytes cannot be written."""
     folder = str(path.parent)
     folder = folder if len(folder) < _LONGEST_SHOWN else f"{folder[:100]}..."
-    if "\0" in folder:
-        raise InputError(f"output folder {folder}: cannot be written (a zero byte in the name)")
+    if "\0" in str(path):
+        raise InputError(f"{path}: cannot be written (a zero byte in the name)")
     try:
         yield
     except OSError as error:

@@ -245,7 +245,10 @@ def test_a_run_that_breaks_down_keeps_the_others(capfd, short, tmp_path, monkeyp
     ("arguments", "told"),
     [
         (["run", "smooth_rail", "--out", ""], "--out: is empty; give a name"),
-        (["run", "smooth_rail", "--out", "a\0b/c"], r"a\x00b/c: cannot be written (a zero byte"),
+        (["run", "smooth_rail", "--out", "a\0b/c"], r"a\x00b/c/file: cannot be written (a"),
+        (["new", "a\0.toml"], r"a\x00.toml: cannot be written (a zero byte in the name)"),
+        (["new", "x" * 300 + ".toml"], "x... its name is too long"),
+        (["check", "x" * 5000], "x... no such file nor shipped study"),
         (["run", "smooth_rail", "--out", "x" * 300], "its name is too long"),
         (["run", "smooth_rail", "--out", "/".join(["y" * 200] * 30)], "its name is too long"),
         (["check", "smooth_rail", "--set", "journey.speed=1 m/s", "--set", "journey.speed=2 m/s"],
