@@ -58,7 +58,7 @@ def reasons(advice: Advice) -> list[str]:
                 f"; {100 * w.share:.0f} % of that in waves of {_length(w.shortest)} to "
                 f"{_length(w.longest)}"
             )
-        told.append(f"{text}. What it leaves out most of all: {cause(advice, name)}.")
+        told.append(f"{text}. {_why(advice, name)}.")
     failed = [t for t in advice.tried if t.failure]
     if failed:
         told.append(f"{len(failed)} schemes could not be run; the first: {failed[0].failure}")
@@ -69,6 +69,13 @@ def reasons(advice: Advice) -> list[str]:
         )
     told.append(_basis(advice))
     return told
+
+
+def _why(advice: Advice, family: str) -> str:
+    names, answer = list(FAMILIES), advice.answer
+    if answer is not None and names.index(family) > names.index(answer.scheme.family):
+        return "It has more in it than the answer, but its mesh or its time step is too coarse"
+    return f"What it leaves out most of all: {cause(advice, family)}"
 
 
 def cause(advice: Advice, family: str) -> str:
