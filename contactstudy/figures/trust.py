@@ -168,10 +168,11 @@ def _caption(found: TrustMap) -> str:
         if np.nansum(lost) > 0.0
         else " The reference never loses contact."
     )
-    text += (
-        " Empty, above the dotted line: the troughs are sharper than the wheel, which would rest "
-        "on two crests."
-    )
+    if np.isnan(found.errors.values).all(axis=0).any():
+        text += (
+            " Empty, above the dotted line: the troughs are sharper than the wheel, which would "
+            "rest on two crests."
+        )
     if np.isfinite(found.patch):
         text += (
             f" The patch is {number(1e3 * found.patch)} mm long at rest"
@@ -193,7 +194,7 @@ def _left(found: TrustMap) -> float:
 
 def _draw(found: TrustMap) -> Figure:
     speeds, runs = len(found.speed.at), found.runs
-    figure = new_figure(0.9 + 1.45 * len(runs))
+    figure = new_figure(0.8 + 1.1 * len(runs))
     grid = figure.subplots(len(runs), speeds, sharex=True, sharey=True, squeeze=False)
     norm = BoundaryNorm(_BOUNDS, 256, extend="both")
     mesh: Any = None

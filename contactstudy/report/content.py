@@ -49,15 +49,17 @@ def content(results: StudyResults, timings: bool) -> Content:
 
 def _report(results: StudyResults, timings: bool) -> Report:
     """What a kind says of a study; of one with axes that of its axes first."""
-    own = find_kind(results.kind).report(results, timings)
+    kind = find_kind(results.kind)
+    own = kind.report(results, timings)
     if not results.swept:
         return own
+    mapped = kind.drawings(results)[:1] if kind.draws_grid(results) else ()
     parts = [*own.parts, *axes.parts(results)]
     subject = axes.subject(results)
     companion = [{"title": "What is varied", "blocks": subject}, *parts]
     return replace(
         own,
-        abstract=axes.abstract(results),
+        abstract=[*axes.abstract(results), *(drawing.caption for drawing in mapped)],
         subject=subject,
         parts=parts,
         as_companion=companion,

@@ -210,6 +210,10 @@ class Kind(ABC):
         """Each a `contactstudy.plot.drawing.Drawing`, in the order of the report."""
         return ()
 
+    def draws_grid(self, results: StudyResults) -> bool:
+        """Whether its own drawings show what is varied over three keys, which axes then do not."""
+        return False
+
     def write_files(self, results: StudyResults, out_dir: Path) -> Sequence[Path]:
         """Write further files; equal results give equal bytes."""
         return ()

@@ -8,6 +8,7 @@ from contactstudy.figures.axes import effects, lines, maps, refined, samples
 from contactstudy.plot.drawing import Drawing
 from contactstudy.study.axes.effects import too_many
 from contactstudy.study.axes.shown import Shown, drawn, shown
+from contactstudy.study.kind import find_kind
 from contactstudy.study.results import StudyResults
 
 _MAPPED = 3  # keys with a figure a run
@@ -16,9 +17,12 @@ _MAPPED = 3  # keys with a figure a run
 def drawings(results: StudyResults) -> list[Drawing]:
     """All that these results can fill; none for a study without axes.
 
-    Of quantities over three keys, a figure a run each, only the first; the others are in the data.
+    Of quantities over three keys, a figure a run each, only the first, and none where the kind
+    draws them; the others are in the data.
     """
     made, mapped = list[Drawing](), set[str]()
+    if results.swept and find_kind(results.kind).draws_grid(results):
+        mapped = set(results.designs)
     for quantity in shown(results):
         design = quantity.data.attrs["design"]
         large = not quantity.data.attrs["refined"] and len(_free(quantity)) == _MAPPED

@@ -108,12 +108,15 @@ def test_the_answer_is_the_cheapest_that_keeps_its_bound(tmp_path):
 
 @pytest.mark.slow
 def test_where_no_point_scheme_suffices_it_is_said_and_exit_status_1(tmp_path, capsys):
-    # waves of 15 mm at 300 km/h: beyond the wheel's modes, and the section's
-    values = SHORT | {"irregularity.band": "[60, 420]", "journey.time_step": "25 us"}
-    options = [f"--set={key}={value}" for key, value in values.items()]
-    status = main(
-        ["advise", "ladder", "--bound", "1.5 %", "--out", str(tmp_path), "--workers=1", *options]
+    # waves of 15 to 100 mm at 300 km/h: beyond the wheel's modes, and the section's
+    file = tmp_path / "short.toml"
+    file.write_text(
+        "[irregularity]\nband = [60, 420]\n"
+        '[track]\nlength = "7.2 m"\n'
+        '[journey]\nfrom = "1.2 m"\nto = "3.6 m"\nfade_in = "0.6 m"\ntime_step = "25 us"\n'
+        '[solid]\nmesh_size = "4 mm"\n[runs.surface]\nsolver = "surface"\n'
     )
+    status = main(["advise", str(file), "--bound", "1.5 %", "--out", str(tmp_path), "-j1"])
     printed = capsys.readouterr()
     assert status == 1
     assert "No " in printed.out

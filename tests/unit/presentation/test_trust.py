@@ -85,6 +85,12 @@ def test_the_map_is_drawn_and_says_what_is_in_it():
     assert "100 mm" in names and "1 m" in names
 
 
+def test_axes_do_not_draw_what_the_map_shows():
+    from contactstudy.figures import axes
+
+    assert axes.drawings(results()) == []
+
+
 def test_the_limit_is_an_amplitude():
     # 4.9 dB at 100 mm: 1 um 10^(4.9/20) sqrt 2
     wave, height = limit_level()

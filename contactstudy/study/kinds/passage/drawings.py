@@ -29,3 +29,8 @@ _FAMILIES = (
 def drawings(results: StudyResults) -> list[Drawing]:
     """All figures that these results can fill."""
     return [made for family in _FAMILIES for made in family.drawings(results)]
+
+
+def draws_grid(results: StudyResults) -> bool:
+    """Whether there is a map of trust."""
+    return trust.trust_map(results) is not None

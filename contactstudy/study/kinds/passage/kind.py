@@ -70,6 +70,7 @@ class PassageKind(Kind):
     collect = later(f"{_HERE}.twins:with_twins")
     metrics = later(f"{_HERE}.metrics:metrics")
     drawings = later(f"{_HERE}.drawings:drawings")
+    draws_grid = later(f"{_HERE}.drawings:draws_grid")
     write_files = later(f"{_HERE}.fields:write_files")
     report = later(f"{_HERE}.report:report")
     summary = later(f"{_HERE}.terminal:summary")
