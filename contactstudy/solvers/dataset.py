@@ -47,7 +47,12 @@ POINT_SIGNALS = (
     "contact_force", "wheel_displacement", "wheel_acceleration", "rail_displacement",
     "rail_acceleration", "irregularity",
 )  # fmt: skip
-"""Those of them that every run records; surface contact records more."""
+"""Those of them that every run with one wheel records."""
+SURFACE_SIGNALS = (
+    "contact_area", "patch_count", "largest_patch_share", "semi_axis_along", "semi_axis_across",
+    "peak_pressure", "penetration",
+)  # fmt: skip
+"""Those that surface contact records beside them."""
 SECTION_SIGNALS = ("rail_lateral", "rail_roll")
 """Those that only a whole section has."""
 

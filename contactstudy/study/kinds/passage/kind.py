@@ -56,6 +56,7 @@ class PassageKind(Kind):
         "wheelset": "Wheelset",
         "scan": "Scanned surfaces",
         "measured": "Measured record",
+        "roughness": "Measured roughness",
     }
 
     load = later(f"{_HERE}.reading:load_passage")

@@ -11,8 +11,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from contactstudy.solvers.dataset import POINT_SIGNALS, SECTION_SIGNALS
-from contactstudy.solvers.dataset import SIGNALS as RUN_SIGNALS
+from contactstudy.solvers.dataset import POINT_SIGNALS, SECTION_SIGNALS, SURFACE_SIGNALS
 from contactstudy.study.kinds.passage.on_bridge import vehicle_on
 from contactstudy.study.kinds.passage.runs import PointRun, SurfaceRun
 from contactstudy.study.kinds.passage.schema import Study
@@ -61,15 +60,13 @@ def histories(study: Study) -> list[str]:
     """
     if vehicle_on(study.track, study.vehicle).n_wheels > 1:
         return ["time"]
-    surface = [r for r in study.runs.values() if isinstance(r, SurfaceRun)]
-    found = ["time", "position", *(POINT_SIGNALS if len(surface) < len(study.runs) else ())]
-    if surface:
-        section = SECTION_SIGNALS if study.solid.half else ()
-        found += [name for name in RUN_SIGNALS if name not in section]
+    found = ["time", "position", *POINT_SIGNALS]
+    if any(isinstance(run, SurfaceRun) for run in study.runs.values()):
+        found += [*SURFACE_SIGNALS, *(() if study.solid.half else SECTION_SIGNALS)]
         found += ["press_force", "press_approach", "press_penetration"]
     if twins(study):
         found += [name + SMOOTH for name in SIGNALS]
-    return list(dict.fromkeys(found))
+    return found
 
 
 def untwinned(study: Study, name: str) -> tuple[Study, str]:

@@ -300,7 +300,7 @@ def test_a_history_to_keep_is_looked_for_before_anything_runs():
         assert load_study("samples", values, sweep=series | {"keep": [name]}).keep == (name,)
     said = refused("contact_forces", "samples")
     assert 'sweep.keep = "contact_forces"' in said and "did you mean 'contact_force'" in said
-    assert "rail_lateral" not in refused("rail_roll", "samples").partition("there are")[2]
+    assert "rail_roll" not in refused("rail_roll", "samples").partition("there are")[2]
 
 
 def test_the_histories_of_positions_are_known():
