@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactstudy.arrays import Array, IntArray
+from contactstudy.dynamics.banded import Factor
 from contactstudy.dynamics.rows import row_values
 from contactstudy.dynamics.stepper import State
 from contactstudy.solvers.observers import Watch
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
 _NOT_THERE = np.nan
 _VARIABLES: dict[str, tuple[str, str]] = {
     "deck_displacement": ("m", "displacement of the deck's axis at the station, up"),
+    "deck_static": ("m", "the same under the wheels' static loads alone, without dynamics"),
     "deck_acceleration": ("m/s^2", "acceleration of the deck's axis at the station, up"),
     "deck_lateral": ("m", "lateral displacement of the deck's axis at the station"),
     "deck_lateral_acceleration": ("m/s^2", "lateral acceleration of the deck's axis there"),
@@ -36,7 +38,9 @@ class BridgeHistories(Watch):
     The dataset gets `deck_displacement`, `deck_acceleration` and `deck_strain` (station, time), of
     bending in the vertical plane at the depth of the bridge's gauges; in space also
     `deck_lateral`, `deck_lateral_acceleration` and `deck_roll`; NaN where a station lies on an
-    approach. `bearing_force` (support, time) is that of both decks on a pier, without dead load.
+    approach. `deck_static` is what the static wheel loads alone would make of `deck_displacement`:
+    by reciprocity the sum over the wheels of load times N(X) K^-1 of a unit force on the deck.
+    `bearing_force` (support, time) is that of both decks on a pier, without dead load.
     """
 
     def __init__(self, passage: Passage[StructureTrack]) -> None:
@@ -61,7 +65,13 @@ class BridgeHistories(Watch):
             for x, deck in zip(stations, decks, strict=True)
             if deck is not None
         ]
-        names = [*self._rows, *(_ACCELERATIONS[n] for n in self._rows if n in _ACCELERATIONS)]
+        self._travelling, self._loads = passage.rail_rows.at, passage.static_loads
+        self._influence = _influence(track, self._rows["deck_displacement"])
+        names = [
+            "deck_static",
+            *self._rows,
+            *(_ACCELERATIONS[n] for n in self._rows if n in _ACCELERATIONS),
+        ]
         self._kept = {name: np.empty((self._steps, len(self._there))) for name in names}
         self._supports, self._spring, self._damper = track.bearing_forces
         self._bearing = np.empty((self._steps, len(self._supports)))
@@ -74,6 +84,10 @@ class BridgeHistories(Watch):
                 if name in _ACCELERATIONS:
                     of = self._kept[_ACCELERATIONS[name]]
                     of[state.step, k] = row_values(*row, state.a)[0]
+        rail = self._travelling(state.step)
+        for k, influence in enumerate(self._influence):
+            static = -float(self._loads @ row_values(*rail, influence))
+            self._kept["deck_static"][state.step, k] = static
         n = self._spring.shape[1]  # the track's dofs come first
         self._bearing[state.step] = -(self._spring @ state.u[:n] + self._damper @ state.v[:n])
 
@@ -102,6 +116,18 @@ _ACCELERATIONS = {
 
 def _row(axis: Axis) -> Array:
     return displacement(axis, (0.0, 0.0, 0.0))
+
+
+def _influence(track: StructureTrack, rows: list[tuple[IntArray, Array]]) -> list[Array]:
+    """K^-1 of a unit force in each row (n_dofs,) [m/N]."""
+    if not rows:
+        return []
+    factor, found = Factor(track.stiffness), list[Array]()
+    for dofs, weights in rows:
+        load = np.zeros(track.n_dofs)
+        np.add.at(load, dofs[0], weights[0])
+        found.append(factor.solve(load))
+    return found
 
 
 def _strain_row(track: StructureTrack, deck: Chain, x: float) -> tuple[IntArray, Array]:

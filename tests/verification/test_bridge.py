@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import scipy.sparse.linalg as spla
 
 from contactstudy.contact.laws import HertzSpring, LinearSpring, MovingForce
 from contactstudy.dynamics.energy import energy_balance
@@ -335,6 +336,28 @@ def test_the_left_rail_is_the_left_one():
     on_left = np.array(car.contact_rails)[np.array(car.contact_directions) == "Z"] == 1
     assert np.all(np.ptp(data.irregularity.values, axis=1)[on_left] > 1e-5)
     assert np.all(data.irregularity.values[~on_left] == 0.0)
+
+
+@pytest.mark.parametrize("planar", [True, False])
+def test_the_static_deflection_beside_a_run_is_that_of_its_loads_at_rest(planar):
+    structure, car = small_bridge(planar), one_car(planar)
+    data, _ = run(structure, car, 60.0, MovingForce(), 1e-3, stations=(16.5, 24.0), end=44.0)
+    loads = [load for load in car.static_loads if load > 0.0]
+    rails = [r for r, d in zip(car.contact_rails, car.contact_directions, strict=True) if d == "Z"]
+    for step in (300, 550, 700):
+        force = np.zeros(structure.n_dofs)
+        for load, rail, x in zip(loads, rails, data.position.values[:, step], strict=True):
+            dofs, weights = structure.contact_rows(np.array([x]), int(rail), "Z")
+            np.add.at(force, dofs[0], -load * weights[0])
+        u = spla.spsolve(structure.stiffness.tocsc(), force)
+        for k, x in enumerate((16.5, 24.0)):
+            deck = structure.deck_at(x)
+            row = structure.rows_of(
+                structure.nodes.decks[deck], np.array([x]), displacement("Z", (0, 0, 0))
+            )
+            still = row[1][0] @ u[row[0][0]]
+            assert data.deck_static.values[k, step] == pytest.approx(still, rel=1e-6, abs=1e-12)
+    assert np.abs(data.deck_static).max() > 1e-5
 
 
 def test_two_wheels_in_one_element_add_up():

@@ -2,6 +2,7 @@
 
 from contactstudy.figures import (
     bands,
+    deck,
     histories,
     irregularity,
     ladder,
@@ -21,8 +22,8 @@ from contactstudy.plot.drawing import Drawing
 from contactstudy.study.results import StudyResults
 
 _FAMILIES = (
-    model, trust, stiffness, ladder, measured, irregularity, histories, bands, patch, patch_status,
-    stress, patch_history, section, press, passing,
+    model, trust, stiffness, ladder, measured, irregularity, histories, bands, deck, patch,
+    patch_status, stress, patch_history, section, press, passing,
 )  # fmt: skip
 
 

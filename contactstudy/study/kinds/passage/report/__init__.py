@@ -12,6 +12,7 @@ from contactstudy.study.kinds.passage.drawings import drawings
 from contactstudy.study.kinds.passage.report.abstract import GRADES, abstract
 from contactstudy.study.kinds.passage.report.comfort_table import comfort_table
 from contactstudy.study.kinds.passage.report.conclusion import conclusion
+from contactstudy.study.kinds.passage.report.deck_table import deck_table
 from contactstudy.study.kinds.passage.report.measured_table import measured_tables
 from contactstudy.study.kinds.passage.report.rungs import rung_tables
 from contactstudy.study.kinds.passage.report.stress_table import stress_tables
@@ -29,6 +30,7 @@ _PARTS = (
     ("Contact force", ("contact_force", "third_octaves")),
     ("Motion of the wheel", ("wheel_displacement", "wheel_acceleration")),
     ("Motion of the rail", ("rail_displacement", "rail_acceleration")),
+    ("Motion of the bridge", ("deck_motion",)),
     (
         "Contact patch",
         (
@@ -102,6 +104,8 @@ def _parts(results: StudyResults) -> list[Part]:
         blocks = [figure(d.name, d.caption) for d in own]
         if title == "Contact force" and own:
             blocks.insert(0, text(EXPLAINED))
+        if title == "Motion of the bridge":
+            blocks += deck_table(results)
         if title == "Contact patch":
             after = [k for k, d in enumerate(own) if d.name.startswith("stress_below")]
             at = after[-1] + 1 if after else len(blocks)

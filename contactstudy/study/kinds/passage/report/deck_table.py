@@ -1,0 +1,65 @@
+"""Table of the deck of a bridge beside the limits and formulas of EN 1990 and EN 1991-2."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from contactstudy.compare.bridge_codes import amplification, dynamic_factor, limits
+from contactstudy.figures.deck import largest_station
+from contactstudy.plot.text import label, number
+from contactstudy.report.blocks import Block, table
+from contactstudy.study.results import StudyResults
+from contactstudy.track.bridge import Bridge
+
+_COLUMNS = ["Run", "Deflection (mm)", "Static (mm)", "Dynamic factor", "Acceleration (m/s²)"]
+
+
+def deck_table(results: StudyResults) -> list[Block]:
+    """Of each run the largest values at the station where a deck moves most."""
+    station = largest_station(results)
+    if station is None:
+        return []
+    rows = []
+    for name, run in results.runs.items():
+        here = run.sel(station=station)
+        dynamic, static = here["deck_displacement"].values, here["deck_static"].values
+        rows.append(
+            [
+                label(name),
+                number(1e3 * float(np.abs(dynamic).max()), 3),
+                number(1e3 * float(np.abs(static).max()), 3),
+                number(amplification(dynamic, static), 3),
+                number(float(np.abs(here["deck_acceleration"]).max()), 2),
+            ]
+        )
+    caption = f"The deck at X = {number(station, 4)} m."
+    return [table(_COLUMNS, rows, caption, 1, _beside(results, station))]
+
+
+def _beside(results: StudyResults, station: float) -> str:
+    """What the codes say of the span under the station."""
+    track = results.config["track"]
+    speed = float(results.config["journey"]["speed"])
+    span, frequency = _span(track, station)
+    limit = limits(speed, track["layer"] == "ballast", span)[0]
+    factor, careful = (dynamic_factor(speed, frequency, span, c) for c in (False, True))
+    return (
+        f"EN 1990, {limit.source}: at most {number(limit.value, 2)} m/s², of frequencies up to the "
+        "larger of 30 Hz and 1.5 times the first; the acceleration here has all that the time step "
+        f"lets through. EN 1991-2, annex C, for a simply supported span of {number(span, 3)} m "
+        f"with {number(frequency, 3)} Hz: 1 + φ' + φ'' = {number(factor, 3)}, with carefully "
+        f"maintained track {number(careful, 3)}."
+    )
+
+
+def _span(track: dict[str, Any], station: float) -> tuple[float, float]:
+    """Length of the span under a station [m], and its first frequency simply supported [Hz]."""
+    from contactstudy.validation import entries, read
+
+    known = {key: track[key] for key in entries(Bridge) if key in track}
+    bridge, problems = read(Bridge, known, "track")
+    assert not problems
+    k = int(np.clip(np.searchsorted(bridge.supports, station) - 1, 0, len(bridge.spans) - 1))
+    return bridge.spans[k], bridge.deck.frequency(bridge.spans[k])

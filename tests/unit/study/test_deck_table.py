@@ -1,0 +1,67 @@
+"""The deck in figures and tables of a passage."""
+
+import numpy as np
+import xarray as xr
+
+from contactstudy.figures.deck import drawings, largest_station
+from contactstudy.study.kinds.passage.report.deck_table import deck_table
+
+
+class Results:
+    """What figures and tables take of the results of a study."""
+
+    reference = "one"
+
+    def __init__(self, **decks):
+        time = np.linspace(0.0, 1.0, 5)
+        self.runs = {
+            name: xr.Dataset(
+                {
+                    key: (("station", "time"), np.outer(factors, [0.0, 1.0, 2.0, 1.0, 0.0]))
+                    for key, factors in deck.items()
+                },
+                {"station": [5.0, 66.0, 90.0], "time": time},
+            )
+            for name, deck in decks.items()
+        }
+        self.config = {
+            "track": {"structure": "bridge", "layer": "ballast", "spans": [32.0, 20.0],
+                      "approach_before": 50.0, "deck": "antoing"},
+            "journey": {"speed": 60.0},
+        }  # fmt: skip
+
+
+def deck(displacement, static=-1e-3, rate=0.5):
+    return {
+        "deck_displacement": [np.nan, displacement, 0.5 * displacement],
+        "deck_static": [np.nan, static, 0.5 * static],
+        "deck_acceleration": [np.nan, rate, rate],
+    }
+
+
+def test_the_station_that_moves_most_beside_the_codes():
+    results = Results(one=deck(-1.2e-3), two=deck(-1.5e-3))
+    assert largest_station(results) == 66.0
+    (made,) = deck_table(results)
+    rows = [row[1:] for row in made["rows"]]
+    assert rows == [["2.40", "2.00", "1.20", "1.0"], ["3.00", "2.00", "1.50", "1.0"]]
+    assert "3.5 m/s²" in made["note"]
+    # Antoing's section over 32 m: f = pi/(2 L^2) sqrt(EI/m) = 3.205 Hz (50/32)^2
+    assert "span of 32.0 m with 7.83 Hz" in made["note"]
+
+
+def test_drawn_with_the_largest_values_in_the_caption():
+    (made,) = drawings(Results(one=deck(-1.2e-3)))
+    assert made.name == "deck_motion"
+    assert "one 2.40 mm and 1.0 m/s²" in made.caption
+    assert len(made.draw().axes) == 2
+
+
+def test_nothing_without_a_deck():
+    nowhere = {key: [np.nan] * 3 for key in deck(1.0)}
+    assert deck_table(Results(one=nowhere)) == []
+    assert drawings(Results(one=nowhere)) == []
+    results = Results()
+    results.runs = {"one": xr.Dataset()}
+    assert drawings(results) == []
+    assert deck_table(results) == []
