@@ -7,6 +7,7 @@ from .irregularity import sample_profile as sample_profile
 from .irregularity import spectrum as spectrum
 from .notebook import check as check
 from .notebook import load as load
+from .notebook import open as open
 from .notebook import run as run
 from .notebook import sweep as sweep
 from .solids.bodies import meshed_wheel as meshed_wheel

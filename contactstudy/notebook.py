@@ -13,8 +13,11 @@ from contactstudy.solids.cache import cache_directory
 from contactstudy.study.axes.swept import Swept
 from contactstudy.study.loading import load_study
 from contactstudy.study.results import StudyResults
+from contactstudy.study.results import open_results as open
 from contactstudy.study.study import Study
 from contactstudy.study.terminal import TerminalReporter, check_study, console
+
+__all__ = ["check", "load", "open", "run", "sweep"]
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -94,6 +94,8 @@ def test_a_study_runs_without_writing_and_is_found_again(tmp_path, monkeypatch):
     assert list(results.runs) == ["point"]
     assert "Group: /point" in repr(results)
     assert "point" in results._repr_html_()
+    cs.run(study, SHORT | {"irregularity.seed": 2}, out="written")
+    assert cs.open("written")["point"].contact_force.equals(results.runs["point"].contact_force)
     assert sorted(path.name for path in tmp_path.iterdir()) == ["cache", "mine.toml"]
     kept = {path: path.stat().st_mtime_ns for path in (tmp_path / "cache" / "runs").iterdir()}
     again = cs.run(cs.load(study, SHORT | {"irregularity.seed": 2}))

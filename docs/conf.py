@@ -1,0 +1,31 @@
+"""Configuration of the documentation: ``sphinx-build -W docs site`` writes static HTML."""
+
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).parent
+sys.path.insert(0, str(HERE))
+
+import mathematics  # noqa: E402
+import pages  # noqa: E402
+
+project, author, language = "contactstudy", "contactstudy developers", "en"
+html_title, html_theme = "contactstudy", "furo"
+html_copy_source = html_show_sourcelink = False
+extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
+myst_enable_extensions = ["dollarmath", "deflist"]
+myst_heading_anchors = 3
+napoleon_google_docstring = False
+napoleon_use_rtype = False
+autodoc_typehints = "none"  # numpydoc's sections say it, with shapes and units
+autodoc_member_order = "bysource"
+exclude_patterns = ["site"]
+# the studies and scripts of these pages stand in files that are not part of the site
+suppress_warnings = ["myst.xref_missing"]
+html_theme_options = {"sidebar_hide_name": False}
+
+
+def setup(app):
+    """Generate what is generated, and write formulas as MathML."""
+    pages.write(HERE)
+    mathematics.setup(app)

@@ -1,0 +1,124 @@
+"""The documentation: it builds without a warning, and its commands and links are real."""
+
+import html.parser
+import json
+import re
+import shlex
+import shutil
+from pathlib import Path
+
+import pytest
+
+from contactstudy.commands import app
+from contactstudy.verification.cases import CASES
+from contactstudy.verification.check import CaseResult, Check, ResultTable
+from contactstudy.verification.outcome import judged, write_json
+
+ROOT = Path(__file__).parents[2]
+DOCS = ROOT / "docs"
+PAGES = [ROOT / "README.md", *sorted(DOCS.glob("*.md"))]
+
+
+def commands():
+    for page in PAGES:
+        text = page.read_text("utf-8")
+        for block in re.findall(r"```bash\n(.*?)```", text, re.DOTALL):
+            for line in block.splitlines():
+                if line.startswith("contactstudy "):
+                    yield pytest.param(line, id=f"{page.stem}: {line[13:60]}")
+
+
+@pytest.mark.parametrize("line", list(commands()))
+def test_every_command_is_one(line):
+    """Its options and arguments are known; nothing runs."""
+    tokens = shlex.split(line, comments=True)[1:]
+    command, bound, _ = app.parse_args(tokens, exit_on_error=False, print_error=False)
+    assert callable(command) and bound is not None
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory):
+    """The site, with a book of one case whose numbers are known."""
+    pytest.importorskip("sphinx")
+    from sphinx.application import Sphinx
+
+    work = tmp_path_factory.mktemp("site")
+    shutil.copytree(DOCS, work / "docs", ignore=shutil.ignore_patterns("book", "reference"))
+    (work / "contactstudy").symlink_to(ROOT / "contactstudy")
+    result = CaseResult(
+        name=CASES[0].name,
+        title="A case of the test",
+        method="Two times two.",
+        checks=(Check("product", 4.004, 4.0, "mm", "arithmetic", 0.002),),
+        tables=(ResultTable("Powers | of two", ("n", "2^n"), ((1, 2.0), (10, 1024.0))),),
+        figures=(),
+    )
+    (work / "book").mkdir()
+    write_json([judged(result)], {"versions": {"numpy": "9.9"}, "code": "abc"}, work / "book")
+    shutil.copy(work / "book" / "verification.json", work / "docs" / "verification.json")
+    out = work / "html"
+    made = Sphinx(work / "docs", work / "docs", out, work / "trees", "html", warningiserror=True)
+    made.build()
+    assert made.statuscode == 0
+    return out
+
+
+def test_numbers_of_the_book_are_those_of_the_run(site):
+    text = (site / "book" / f"{CASES[0].name}.html").read_text("utf-8")
+    for part in ("Two times two.", "4.004 mm", "0.1 %", "0.2 %", "1024", "Powers | of two"):
+        assert part in text
+    assert "9.9" in (site / "book" / "index.html").read_text("utf-8")
+
+
+def test_formulas_need_no_script(site):
+    text = (site / "theory.html").read_text("utf-8")
+    assert text.count("<math ") > 10
+    assert not re.search(r"<script[^>]*(math|tex)", text, re.IGNORECASE)
+    assert "def tangent_stiffness" in re.sub(r"<[^>]*>", "", text)
+
+
+def test_every_key_and_command_is_listed(site):
+    keys = (site / "reference" / "keys.html").read_text("utf-8")
+    assert "pad_stiffness" in keys and "wheel_defect_length" in keys
+    listed = (site / "reference" / "commands.html").read_text("utf-8")
+    for name in (n for n in app if not n.startswith("-")):
+        assert f"contactstudy {name}" in listed
+
+
+class Links(html.parser.HTMLParser):
+    """References of a page: to pages, pictures, scripts, styles."""
+
+    def __init__(self):
+        super().__init__()
+        self.found, self.anchors = [], set()
+
+    def handle_starttag(self, tag, attrs):
+        given = dict(attrs)
+        self.anchors |= {given["id"]} if "id" in given else set()
+        self.found += [given[k] for k in ("href", "src") if given.get(k)]
+
+
+def test_no_link_is_dead_and_nothing_comes_from_the_network(site):
+    pages = {}
+    for path in site.rglob("*.html"):
+        pages[path] = Links()
+        pages[path].feed(path.read_text("utf-8"))
+    assert len(pages) > 10
+    for path, page in pages.items():
+        for link in page.found:
+            target, _, anchor = link.partition("#")
+            target = target.partition("?")[0]
+            if re.match(r"[a-z]+:", link):
+                assert link.startswith(("https://", "data:", "mailto:")), link
+                assert not re.search(r"\.(js|css|woff2?)$", link), link
+                continue
+            found = (path.parent / target).resolve() if target else path
+            assert found.exists(), f"{path.name}: {link}"
+            if anchor and found in pages:
+                assert anchor in pages[found].anchors, f"{path.name}: {link}"
+
+
+def test_the_book_of_the_checkout_is_a_real_run():
+    data = json.loads((DOCS / "verification.json").read_text("utf-8"))
+    assert {case["name"] for case in data["cases"]} <= {case.name for case in CASES}
+    assert any("checks" in case for case in data["cases"])
