@@ -10,6 +10,7 @@ contact at 4 elements a bay.
 """
 
 import time
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -25,7 +26,9 @@ from contactstudy.solids.cell import condense
 from contactstudy.solids.recipe import CellRecipe
 from contactstudy.solids.wheel import WheelRecipe
 from contactstudy.solvers.journey import Journey
-from contactstudy.solvers.point import point_contact
+from contactstudy.solvers.observers import EachState
+from contactstudy.solvers.point import point_contact, point_contacts
+from contactstudy.solvers.point_case import PointCase
 from contactstudy.solvers.surface import surface_contact
 from contactstudy.study.kinds.passage import build
 from contactstudy.study.kinds.passage.placing import geometry
@@ -102,6 +105,55 @@ def test_point_step(benchmark, law, local):
         )
 
     report(benchmark, run, baseline(BeamTrack(Track()).stiffness))
+
+
+@pytest.mark.parametrize("law", [LinearSpring(1.2e9), HertzSpring(9.25e10)], ids=["k_r", "hertz"])
+def test_point_step_of_1500_dofs(benchmark, law):
+    track = BeamTrack(Track(length=99.6))
+
+    def run():
+        return point_contact(track, wheel_column(), profile(), JOURNEY, law=law)
+
+    report(benchmark, run, baseline(track.stiffness))
+
+
+def test_samples_side_by_side(benchmark):
+    """64 samples of the irregularity at one go, against state by state one after another.
+
+    Processor time, so that what else runs on the machine matters little.
+    """
+    track = BeamTrack(Track(), "timoshenko", element_compliance=True)
+    cases = [
+        PointCase(
+            track,
+            wheel_column(),
+            sample_profile(paper_spectrum(), seed=seed),
+            JOURNEY,
+            LinearSpring(1.2e9),
+        )
+        for seed in range(64)
+    ]
+
+    def seconds(own):
+        began = time.process_time()
+        point_contacts(own)
+        return (time.process_time() - began) / len(own)
+
+    def one_by_one():
+        return [seconds([one]) for one in cases[:8]]
+
+    states = [replace(one, observers=[EachState(lambda state: None)]) for one in cases[:4]]
+    point_contacts(cases[:9]), point_contacts(states[:1])  # compiled kernels are loaded
+    by_states, alone = seconds(states), float(np.median(one_by_one()))
+    times = []
+    benchmark.pedantic(lambda: times.append(seconds(cases)), rounds=3)
+    side_by_side = float(np.median(times))
+    benchmark.extra_info["times_as_fast_as_state_by_state"] = round(by_states / side_by_side, 1)
+    benchmark.extra_info["times_as_fast_as_alone"] = round(alone / side_by_side, 1)
+    print(
+        f"\nprocessor time of a run: {1e3 * by_states:.0f} ms state by state, {1e3 * alone:.0f} ms"
+        f" alone, {1e3 * side_by_side:.0f} ms beside 63 others"
+    )
 
 
 def test_surface_step(benchmark):
