@@ -11,6 +11,7 @@ from contactstudy.given_files import file_text
 
 MOST_ROWS = 1_000_000
 """Of a CSV file: so many are read in ten seconds and half a gigabyte."""
+_LONGEST = 60  # characters of a cell that are shown
 _SHOWN = 10  # faults of one kind that are listed before "and n more"
 
 
@@ -45,6 +46,12 @@ def finite_number(cell: str) -> float | None:
     """Number in a cell, or None if it is not a finite one in plain digits (``1_0`` is none)."""
     value = float(cell) if _NUMBER.fullmatch(cell) else math.nan
     return value if math.isfinite(value) else None
+
+
+def shown_cell(cell: str) -> str:
+    """A cell as messages show it: on one line, and of a long one the beginning."""
+    text = cell if len(cell) <= _LONGEST else f"{cell[:_LONGEST]}..."
+    return f"'{' '.join(text.split())}'" if cell else "empty"
 
 
 def header_cells(path: Path, rows: list[tuple[int, list[str]]]) -> list[str]:

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from contactstudy.arrays import Array, IntArray
-from contactstudy.csv_rows import finite_number, header_cells, listed, read_rows
+from contactstudy.csv_rows import finite_number, header_cells, listed, read_rows, shown_cell
 from contactstudy.exceptions import InputError
 from contactstudy.validation import raise_if
 
@@ -39,7 +39,7 @@ def read_numbers(path: Path, columns: Sequence[str]) -> tuple[Array, IntArray, l
             cell = cells[index[k]].strip() if index[k] < len(cells) else ""
             value = finite_number(cell)
             if value is None:
-                shown = f"'{cell}'" if cell else "empty"
+                shown = shown_cell(cell)
                 faults.append(f"line {line}, column '{name}' is {shown}; allowed: finite numbers")
             else:
                 table[row, k] = value

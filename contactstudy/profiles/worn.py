@@ -8,7 +8,7 @@ from typing import Literal
 import numpy as np
 
 from contactstudy.arrays import Array
-from contactstudy.csv_rows import finite_number, header_cells, listed, read_rows
+from contactstudy.csv_rows import finite_number, header_cells, listed, read_rows, shown_cell
 from contactstudy.exceptions import InputError
 from contactstudy.profiles.cloud import fit_cloud
 from contactstudy.profiles.curve import ProfileCurve
@@ -232,7 +232,7 @@ def _points(
             cell = cells[k].strip() if k < len(cells) else ""
             value = finite_number(cell)
             if value is None:
-                shown = f"'{cell}'" if cell else "empty"
+                shown = shown_cell(cell)
                 faults.append(
                     f"line {line}, column '{header[k]}' is {shown}; allowed: finite numbers"
                 )

@@ -12,7 +12,7 @@ import traceback
 from pathlib import Path
 from random import Random
 
-from mutations import OF_STUDY
+from mutations import OF_STUDY, place
 
 from contactstudy.cli import main
 from contactstudy.process import forget_peak_memory, peak_memory_mb
@@ -37,6 +37,8 @@ def mutated(seed: int, bases: Path, folder: Path) -> tuple[str, str]:
         with contextlib.suppress(OSError, ValueError, IndexError, KeyError, AttributeError):
             mutation(folder, study, random)
         done.append(mutation.__name__)
+        if mutation is place:  # a pipe or a device: nothing to read for a second one
+            break
     return study, " and ".join(done)
 
 
