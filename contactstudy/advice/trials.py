@@ -67,6 +67,7 @@ class Trials:
             measured=MeasuredRecord(),
             smooth=False,
             rungs=False,
+            softer=0.0,
         )
         return cls(made, part, folder, workers, None if reporter is None else NotedOnce(reporter))
 
