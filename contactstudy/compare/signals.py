@@ -46,6 +46,12 @@ def position(run: xr.Dataset) -> Array:
     return run.attrs["start"] + x[0] - x if run.attrs.get("travel") == "backward" else x
 
 
+def same_way(run: xr.Dataset, other: xr.Dataset) -> bool:
+    """Whether both pass in the same direction; if not, equal positions are not equal places."""
+    ways = {one.attrs.get("travel", "forward") for one in (run, other)}
+    return len(ways) == 1
+
+
 def speed(run: xr.Dataset) -> float:
     """Speed of the run in m/s."""
     x, t = position(run), run["time"].values

@@ -8,7 +8,7 @@ from matplotlib.ticker import FixedLocator, NullLocator
 from contactstudy.arrays import BoolArray
 from contactstudy.compare.bands import CONTENT, least_content
 from contactstudy.compare.signals import speed, values
-from contactstudy.figures.signals import compared, fade_end, has_signal, styles
+from contactstudy.figures.signals import compared, fade_end, has_signal, others, styles
 from contactstudy.irregularity.estimate import ThirdOctaves, third_octave_levels
 from contactstudy.plot.drawing import Drawing
 from contactstudy.plot.style import BLACK, SHADE, figure_legend, new_figure
@@ -41,9 +41,8 @@ def level_pairs(results: StudyResults) -> dict[str, tuple[ThirdOctaves, ThirdOct
     reference = results.runs[str(results.reference)]
     v = speed(reference)
     pairs = {}
-    for name, run in results.runs.items():
-        if name == results.reference:
-            continue
+    for name in others(results):
+        run = results.runs[name]
         x, ours, theirs = compared(results, name, SIGNAL, fade_end(results))
         spacing = float(x[-1] - x[0]) / (len(x) - 1) / v
         band = (1.0 / (spacing * len(x)), min(HIGHEST, 0.45 / spacing))
@@ -97,7 +96,7 @@ def _draw(results: StudyResults, pairs: dict[str, tuple[ThirdOctaves, ThirdOctav
     second = top.secondary_xaxis("top")
     second.set_xlabel("Wavelength (m)")
     _ticks(below, first, [f"{f:g}" for f in first.nominal])
-    _ticks(second, first, [f"{v / f:.2g}" for f in first.centre])
+    _ticks(second, first, [exact(v / f, 2) for f in first.centre])
     figure.align_ylabels()
     figure_legend(figure, top)
     return figure

@@ -15,6 +15,8 @@ from contactstudy.figures.signals import (
     fade_end,
     from_rest,
     has_signal,
+    leaves_track,
+    others,
     styles,
     wheel_note,
 )
@@ -40,13 +42,17 @@ _LOUD = 2.5
 
 def drawings(results: StudyResults) -> list[Drawing]:
     """One figure for each signal that all runs of a study with a reference carry."""
-    if results.reference is None or len(results.runs) < 2:
+    if results.reference is None or not others(results):
         return []
     return [
         Drawing(s.name, _caption(results, s), partial(_draw, results, s))
         for s in SIGNALS
         if all(has_signal(run, s.name) for run in results.runs.values())
     ]
+
+
+_FAINT = 0.3
+"""Opacity of the run that goes beyond that panel, lest it covers the others."""
 
 
 def _draw(results: StudyResults, signal: Signal) -> Figure:
@@ -61,6 +67,7 @@ def _draw(results: StudyResults, signal: Signal) -> Figure:
     _curves(zoom, results, signal)
     for axes in (whole, below):
         _shade_fade(axes, results, start)
+    whole.set_xlim(right=leaves_track(results))
     low, high = zoom_window(results, signal, start)
     zoom.set_xlim(low, high)
     _limit_to_view(zoom, low, high)
@@ -91,22 +98,24 @@ def _differences(axes: Axes, results: StudyResults, signal: Signal) -> None:
     """The quiet runs over the loud ones."""
     axes.axhline(0.0, color=BLACK, lw=0.5)
     found = {}
-    for name in results.runs:
-        if name != results.reference:
-            x, ours, theirs = compared(results, name, signal.name)
-            found[name] = x, (theirs - ours) * signal.scale
+    for name in others(results):
+        x, ours, theirs = compared(results, name, signal.name)
+        found[name] = x, (theirs - ours) * signal.scale
     loud_first = sorted(found, key=lambda name: -float(np.abs(found[name][1]).max()))
-    for k, name in enumerate(loud_first):
-        _difference(axes, *found[name], styles(results)[name], 2.0 + 0.01 * k)
     limit = shown_limit([float(np.abs(found[name][1]).max()) for name in loud_first])
+    for k, name in enumerate(loud_first):
+        faint = _FAINT if limit is not None and k == 0 else 1.0
+        _difference(axes, *found[name], styles(results)[name], 2.0 + 0.01 * k, faint)
     if limit is not None:
         axes.set_ylim(-limit, limit)
     axes.margins(x=0)
 
 
-def _difference(axes: Axes, x: Array, y: Array, style: LineStyle, order: float) -> None:
+def _difference(
+    axes: Axes, x: Array, y: Array, style: LineStyle, order: float, opacity: float
+) -> None:
     if not swings_quickly(y):
-        axes.plot(x, y, zorder=order, **style.line)
+        axes.plot(x, y, zorder=order, alpha=opacity, **style.line)
         return
     edges = np.linspace(0, len(y), _CELLS + 1).astype(int)[:-1]
     low, high = np.minimum.reduceat(y, edges), np.maximum.reduceat(y, edges)
@@ -144,9 +153,7 @@ def zoom_window(results: StudyResults, signal: Signal, start: float) -> tuple[fl
     reference = results.runs[str(results.reference)]
     first, last = start, float(position(reference)[-1])
     best, centre = -1.0, 0.5 * (first + last)
-    for name in results.runs:
-        if name == results.reference:
-            continue
+    for name in others(results):
         x, ours, theirs = compared(results, name, signal.name, start)
         k = int(np.argmax(np.abs(theirs - ours)))
         if abs(theirs[k] - ours[k]) > best:
@@ -176,10 +183,9 @@ def _caption(results: StudyResults, signal: Signal) -> str:
         f"{number(y.min(), 4)} and {number(y.max(), 4)} {signal.unit}."
     ]
     largest = []
-    for name in results.runs:
-        if name != reference:
-            _, ours, theirs = compared(results, name, signal.name, start)
-            largest.append((float(np.max(np.abs(theirs - ours))) * signal.scale, name))
+    for name in others(results):
+        _, ours, theirs = compared(results, name, signal.name, start)
+        largest.append((float(np.max(np.abs(theirs - ours))) * signal.scale, name))
     largest.sort()
     if len(largest) > 1:
         told.append(

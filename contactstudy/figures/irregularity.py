@@ -23,7 +23,8 @@ def drawings(results: StudyResults) -> list[Drawing]:
             Drawing("irregularity_spectrum", _spectrum_caption(info), lambda: _spectra(info))
         )
     if info.profile is not None and np.any(info.profile.level):
-        profile, span = info.profile, _travelled(results)
+        profile = info.profile
+        span = within(_travelled(results), profile)
         caption = _profile_caption(profile, span)
         made.append(Drawing("irregularity_profile", caption, lambda: _profile(profile, span)))
     return made
@@ -144,6 +145,14 @@ def _travelled(results: StudyResults) -> tuple[float, float] | None:
     if not spans:
         return None
     return min(float(s[0]) for s in spans), max(float(s[1]) for s in spans)
+
+
+def within(span: tuple[float, float] | None, profile: Level) -> tuple[float, float] | None:
+    """The part of a stretch that has a profile, None where it is all: a train runs on behind it."""
+    low, high = (float(x) for x in profile.position[[0, -1]])
+    if span is None or (span[0] <= low and span[1] >= high):
+        return None
+    return max(span[0], low), min(span[1], high)
 
 
 def _profile_caption(profile: Level, travelled: tuple[float, float] | None) -> str:

@@ -27,15 +27,16 @@ def drawings(results: StudyResults) -> list[Drawing]:
 
 def _draw(results: StudyResults) -> Figure:
     config = results.config
-    figure = new_figure(2.7, equal_axes=True)
+    solvers = [run.get("solver") for run in config.get("runs", {}).values()]
+    shown = [s for s in (_point, _surface) if s.__name__.removeprefix("_") in solvers]
+    low, top = -1.28, 2.25 if _on_column(config) or len(shown) > 1 else 1.55
+    figure = new_figure(0.765 * (top - low), equal_axes=True)
     axes = figure.add_subplot()
-    axes.set(aspect="equal", xlim=(-2.75, 5.6), ylim=(-1.28, 2.25))
+    axes.set(aspect="equal", xlim=(-2.75, 5.6), ylim=(low, top))
     axes.axis("off")
     _track(axes, config["track"])
     _vehicle(axes, config)
     _coordinates(axes)
-    solvers = [run.get("solver") for run in config.get("runs", {}).values()]
-    shown = [s for s in (_point, _surface) if s.__name__.removeprefix("_") in solvers]
     for k, contact in enumerate(shown):
         contact(axes, 4.45, 0.95 - 1.75 * k if len(shown) > 1 else 0.2)
     return figure
@@ -81,8 +82,7 @@ def _vehicle(axes: Axes, config: Mapping[str, Any]) -> None:
     z = _WHEEL + 0.06
     axes.add_patch(Circle((0, z), _WHEEL, fc="white", ec=BLACK, lw=0.9))
     axes.add_patch(Circle((0, z), 0.05, fc=BLACK, ec=BLACK))
-    column = config.get("vehicle", {}).get("type") == "wheel_column"
-    if column:
+    if _on_column(config):
         for low, high, half, word in ((1.42, 1.6, 0.34, "bogie"), (1.9, 2.14, 0.6, "car body")):
             axes.add_patch(
                 Rectangle((-half, low), 2 * half, high - low, fc="white", ec=BLACK, lw=0.8)
@@ -99,6 +99,11 @@ def _vehicle(axes: Axes, config: Mapping[str, Any]) -> None:
         )
         axes.text(0.74, z + 0.07, f"{exact(round(3.6 * float(speed), 3))} km/h", fontsize=8)
     axes.text(-_WHEEL - 0.06, z + 0.35, "wheel", fontsize=8, ha="right")
+
+
+def _on_column(config: Mapping[str, Any]) -> bool:
+    """Whether bodies stand on the wheel."""
+    return bool(config.get("vehicle", {}).get("type") == "wheel_column")
 
 
 def _coordinates(axes: Axes) -> None:
@@ -186,10 +191,14 @@ def _caption(results: StudyResults) -> str:
         str(config["track"].get("support")), "on a bedding"
     )
     contacts = {"point": "a law at a point of a beam", "surface": "pressure between meshed bodies"}
+    several = config.get("vehicle", {}).get("type") not in ("wheel_column", "bare_wheel", None)
+    wheel = "one of the wheels" if several else "a wheel"
     told = [
-        f"The model, not to scale: a wheel rolls along X over an irregular rail {support}.",
+        f"The model, not to scale: {wheel} rolls along X over an irregular rail {support}.",
         "Z points upwards, Y across the track away from the viewer.",
     ]
+    if config["track"].get("structure") == "bridge":
+        told.append("The decks that carry the supports are not drawn.")
     shown = [text for solver, text in contacts.items() if solver in solvers]
     if shown:
         told.append(f"Contact is {' or '.join(shown)} (right).")

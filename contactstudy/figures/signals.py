@@ -7,7 +7,7 @@ import xarray as xr
 
 from contactstudy.arrays import Array
 from contactstudy.compare import norms
-from contactstudy.compare.signals import WITHOUT_STATIC, position, values
+from contactstudy.compare.signals import WITHOUT_STATIC, position, same_way, values
 from contactstudy.plot.style import LineStyle, run_styles
 from contactstudy.study.results import StudyResults
 
@@ -52,6 +52,16 @@ def fade_end(results: StudyResults) -> float:
     return start + float(journey.get("fade_in", 0.0))
 
 
+def others(results: StudyResults) -> list[str]:
+    """Runs that are compared with the reference: all others that travel its way."""
+    reference = results.runs[str(results.reference)]
+    return [
+        name
+        for name, run in results.runs.items()
+        if name != results.reference and same_way(run, reference)
+    ]
+
+
 def compared(
     results: StudyResults, name: str, signal: str, start: float = -np.inf
 ) -> tuple[Array, Array, Array]:
@@ -79,4 +89,15 @@ def from_rest(run: xr.Dataset, signal: str) -> Array:
 def wheel_note(results: StudyResults) -> str:
     """Return a sentence that names the wheel when there are several, else nothing."""
     several = any("wheel" in run["position"].dims for run in results.runs.values())
-    return " Of several wheels the leading one is shown." if several else ""
+    if not several:
+        return ""
+    until = ", up to the end of the track" if leaves_track(results) is not None else ""
+    return f" Of several wheels the leading one is shown{until}."
+
+
+def leaves_track(results: StudyResults) -> float | None:
+    """Position [m] at which the leading wheel leaves the track; None if it stays on it."""
+    length = results.config.get("track", {}).get("length")
+    if length is None or all(position(run)[-1] <= length for run in results.runs.values()):
+        return None
+    return float(length)

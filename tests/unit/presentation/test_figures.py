@@ -5,10 +5,11 @@ import pytest
 
 from contactstudy.figures import model, write_figures
 from contactstudy.figures.histories import shown_limit, swings_quickly
-from contactstudy.figures.irregularity import mean_level_difference
+from contactstudy.figures.irregularity import irregularity_of, mean_level_difference, within
 from contactstudy.figures.passing_components import all_passing
 from contactstudy.figures.patch import bilinear, patch_of
 from contactstudy.figures.press import own_give
+from contactstudy.figures.signals import leaves_track, others
 from contactstudy.irregularity.shown import SpectrumCurve
 from contactstudy.plot.style import figure_style, run_styles, save
 from contactstudy.plot.text import capital, exact, label, number, tick
@@ -144,6 +145,46 @@ def test_captions_change_with_the_data(results, by_name):
     changed = {made.name: made.caption for made in drawings(other)}
     assert changed["contact_force"] != by_name["contact_force"].caption
     assert "largest for tangent" in changed["contact_force"]
+
+
+def test_signals_of_a_run_the_other_way_are_drawn_and_not_subtracted(results):
+    runs = dict(results.runs)
+    back = runs["tangent"].assign_coords(position=36.0 - runs["tangent"]["position"])
+    runs["tangent"] = back.assign_attrs(travel="backward", start=6.0)
+    other = type(results)(**{**vars(results), "runs": runs})
+    assert others(other) == ["hertz_timoshenko", "point"]
+    found = {made.name: made for made in drawings(other)}
+    assert "tangent" not in found["third_octaves"].caption
+    with figure_style():
+        whole, below, *_ = found["contact_force"].draw().axes
+    assert len(whole.lines) == 4
+    assert len(below.lines) + len(below.collections) == 3  # zero, and two differences
+
+
+def test_figures_end_where_the_track_does(results):
+    config = results.config | {"track": results.config["track"] | {"length": 20.0}}
+    short = type(results)(**{**vars(results), "config": config})
+    assert leaves_track(short) == 20.0 and leaves_track(results) is None
+    found = {made.name: made for made in drawings(short)}
+    with figure_style():
+        assert found["contact_force"].draw().axes[0].get_xlim() == (6.0, 20.0)
+
+
+def test_the_travelled_stretch_ends_where_the_profile_does(results):
+    profile = irregularity_of(results).profile
+    assert within((6.0, 715.0), profile) == (6.0, pytest.approx(35.95))
+    assert within((-3.0, 30.0), profile) == (0.0, 30.0)
+    assert within(None, profile) is None and within((0.0, 715.0), profile) is None
+
+
+def test_long_wavelengths_beside_an_axis_are_plain_numbers(results, by_name):
+    with figure_style():
+        top = by_name["third_octaves"].draw().axes[0]
+    (second,) = top.child_axes
+    texts = [t.get_text() for t in second.get_xticklabels()]
+    assert texts and not any("e" in text for text in texts)
+    for text, f in zip(texts, second.get_xticks(), strict=True):
+        assert float(text) == pytest.approx(300 / 3.6 / f, rel=0.05)
 
 
 def test_level_difference_of_spectra_is_the_factor_between_them():

@@ -185,6 +185,19 @@ def test_abstract_tells_of_each_run_once(made, runs):
     assert ("lowest" in text) == ("highest" in text) == (len(runs) > 1)
 
 
+def test_abstract_tells_what_rolls_and_what_is_not_compared(made):
+    study, _, _ = made
+    assert "models of a wheel rolling on a rail run over one track" in abstract(study)[0]
+    config = study.config | {"vehicle": {"type": "train"}}
+    config["track"] = study.config["track"] | {"structure": "bridge"}
+    runs = dict(study.runs)
+    back = runs["point"].assign_coords(position=36.0 - runs["point"]["position"])
+    runs["point"] = back.assign_attrs(travel="backward", start=6.0)
+    told = abstract(type(study)(**{**vars(study), "config": config, "runs": runs}))[0]
+    assert "models of a train rolling on rails run over one bridge" in told
+    assert "“point” travels the other way and is not compared." in told
+
+
 def test_abstract_of_a_study_without_runs_claims_nothing(made):
     study, *_ = made
     empty = {**vars(study), "runs": {}, "reference": None, "companions": (), "metrics": {}}

@@ -103,6 +103,17 @@ def test_nothing_to_compare():
     assert found["comparisons"] == {} and found["reference"] is None
 
 
+def test_a_run_the_other_way_is_not_compared():
+    """Its positions count from where it enters: equal ones are not equal places."""
+    ahead = run(1e-4)
+    turned = ahead.assign_coords(position=36.0 - ahead["position"])
+    turned = turned.assign_attrs(start=6.0, travel="backward")
+    found = metrics(surface=run(1e-4), point=run(1e-4, 1.05), back=turned)
+    assert list(found["comparisons"]) == ["point"] and "back" in found["runs"]
+    both = {"surface": turned, "back": turned}
+    assert list(metrics(**both)["comparisons"]) == ["back"]
+
+
 def test_nothing_is_compared_with_a_dynamic_part_that_is_next_to_nothing():
     """4 sin of 67.4 kN: a difference as large would be 100 % of it."""
     force = metrics(surface=run(1e-4, 1e-3), point=run(1e-4, 2e-3))["comparisons"]["point"][

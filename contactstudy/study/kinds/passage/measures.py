@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from contactstudy.arrays import Array
-from contactstudy.compare.signals import position
+from contactstudy.compare.signals import position, same_way
 from contactstudy.study.axes.measured import Measured, measured
 from contactstudy.study.kinds.passage.impacts import closed_forms, impacts
 from contactstudy.study.kinds.passage.metrics import compare_runs, parts_of
@@ -58,8 +58,9 @@ def measure(study: Study, found: Mapping[str, Any]) -> Measured:
     for name, run in runs.items():
         _own(run, start, lambda variable, name=name: made[variable]["values"].setdefault(name, {}))
         made["contact_lost"]["values"][name] = _lost(run, start)
-        if study.reference is not None and name != study.reference:
-            for signal, entry in compare_runs(run, runs[study.reference], start, False).items():
+        reference = None if study.reference is None else runs[study.reference]
+        if reference is not None and name != study.reference and same_way(run, reference):
+            for signal, entry in compare_runs(run, reference, start, False).items():
                 for variable, (_, dims) in _ERRORS.items():
                     value = entry[variable] if dims == _RUN else _by_part(entry, variable)
                     made[variable]["values"].setdefault(name, {})[signal] = value

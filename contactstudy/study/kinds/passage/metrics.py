@@ -18,7 +18,8 @@
     measured:     with ``[measured]``, see `held_against`
     rungs.<name>: with ``compare.rungs``, the run ``above`` and the same norms against it
 
-Both signals are compared at equal wheel positions behind the fade-in; `contactstudy.compare.norms`
+Both signals are compared at equal wheel positions behind the fade-in, those of runs that travel the
+reference's way; `contactstudy.compare.norms`
 defines the norms. ``linf`` and ``rms`` are in the signal's SI unit. The dynamic part is what is
 left of a signal when its own value in the static start is taken off; the irregularity's part,
 when the same run on a smooth rail is taken off. The wheel's displacement is compared from rest on
@@ -39,7 +40,7 @@ import numpy as np
 from contactstudy.arrays import Array
 from contactstudy.compare import norms
 from contactstudy.compare.bands import level_differences
-from contactstudy.compare.signals import WITHOUT_STATIC, at_rest, position, speed
+from contactstudy.compare.signals import WITHOUT_STATIC, at_rest, position, same_way, speed
 from contactstudy.study.kinds.passage.comfort import comfort_of
 from contactstudy.study.kinds.passage.held_against import held_against
 from contactstudy.study.kinds.passage.schema import Study
@@ -109,7 +110,7 @@ def study_metrics(
         result["comparisons"] = {
             name: compare_runs(run, runs[reference], compare_from)
             for name, run in runs.items()
-            if name != reference
+            if name != reference and same_way(run, runs[reference])
         }
         result["dynamic_part"] = found = dynamic_part(runs[reference], compare_from)
         if not found["compared"]:

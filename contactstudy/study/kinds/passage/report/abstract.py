@@ -7,7 +7,7 @@ import numpy as np
 from contactstudy.compare.signals import position, speed, values
 from contactstudy.figures.irregularity import comparisons, irregularity_of
 from contactstudy.figures.passing_components import all_passing
-from contactstudy.figures.signals import fade_end
+from contactstudy.figures.signals import fade_end, others
 from contactstudy.plot.text import capital, exact, label, listing, number
 from contactstudy.report.quantity import grouped, percent
 from contactstudy.study.kinds.passage.report import lost, rungs
@@ -23,6 +23,15 @@ GRADES = (
     (0.2, "follows it, with visible differences"),
     (np.inf, "differs markedly from it"),
 )
+
+
+_WHEEL = ("a wheel rolling on a rail", "")
+_TRAIN = ("a train rolling on rails", " its leading wheel")
+_VEHICLES = {
+    "bogie": ("a bogie rolling on a rail", " its leading wheel"),
+    **dict.fromkeys(("train", "axle_loads", "hslm", "freight_wagons"), _TRAIN),
+}
+"""Vehicle -> what rolls, and whose positions are told; all others are a wheel."""
 
 
 def grade(error: float) -> str:
@@ -50,10 +59,13 @@ def _case(results: StudyResults) -> str:
     x = position(run)
     count = len(results.runs)
     same = " with the same vehicle, irregularity and time stepper," if count > 1 else ""
+    who, led = _VEHICLES.get(results.config.get("vehicle", {}).get("type", ""), _WHEEL)
+    bridge = results.config.get("track", {}).get("structure") == "bridge"
+    where = "bridge" if bridge else "track"
     told = [
-        f"{capital(_count(count))} model{'s' if count > 1 else ''} of a wheel rolling on a rail "
-        f"run{'' if count > 1 else 's'} over {'one' if count > 1 else 'the'} track,{same} from "
-        f"X = {exact(x[0])} to {exact(x[-1])} m at {exact(round(speed(run) * 3.6, 3))} km/h."
+        f"{capital(_count(count))} model{'s' if count > 1 else ''} of {who} "
+        f"run{'' if count > 1 else 's'} over {'one' if count > 1 else 'the'} {where},{same}{led} "
+        f"from X = {exact(x[0])} to {exact(x[-1])} m at {exact(round(speed(run) * 3.6, 3))} km/h."
     ]
     r = values(run, "irregularity") if "irregularity" in run else np.zeros(1)
     if np.any(r):
@@ -69,7 +81,19 @@ def _case(results: StudyResults) -> str:
         f"The contact force {whose}is {number(force[0] * 1e-3)} kN at rest and lies between "
         f"{number(after.min() * 1e-3)} and {number(after.max() * 1e-3)} kN in motion."
     )
-    return " ".join([*told, *lost.sentences(results)])
+    return " ".join([*told, *_other_way(results), *lost.sentences(results)])
+
+
+def _other_way(results: StudyResults) -> list[str]:
+    """Which runs are not compared with the reference, and why."""
+    if results.reference is None:
+        return []
+    known = [results.reference, *others(results)]
+    apart = [f"“{label(name)}”" for name in results.runs if name not in known]
+    if not apart:
+        return []
+    verbs = ("travel", "are") if len(apart) > 1 else ("travels", "is")
+    return [f"{listing(apart)} {verbs[0]} the other way and {verbs[1]} not compared."]
 
 
 def _irregularity(results: StudyResults) -> str:
