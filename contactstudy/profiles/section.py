@@ -1,4 +1,4 @@
-"""Integrals of a cross-section, and its Timoshenko shear coefficients."""
+"""Integrals of a cross-section, its Timoshenko shear coefficients and its torsion constant."""
 
 from dataclasses import dataclass
 
@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from contactstudy.exceptions import InputError
-from contactstudy.profiles.shear import integration_mesh, shear_coefficient
+from contactstudy.profiles.shear import integration_mesh, shear_coefficient, torsion_constant
 
 
 @dataclass(frozen=True)
@@ -25,6 +25,8 @@ class SectionProperties:
         Height of the centroid in the profile's coordinates [m].
     shear_coefficient_z, shear_coefficient_y : float
         Timoshenko's kappa for vertical and for lateral shear, after Cowper [-].
+    torsion_constant : float
+        Saint-Venant's J [m^4].
     """
 
     area: float
@@ -33,6 +35,7 @@ class SectionProperties:
     centroid_z: float
     shear_coefficient_z: float
     shear_coefficient_y: float
+    torsion_constant: float
 
 
 def polygon_properties(
@@ -70,10 +73,10 @@ def polygon_properties(
 def section_properties(
     nodes: ArrayLike, quads: ArrayLike, poisson_ratio: float, symmetric: bool = False
 ) -> SectionProperties:
-    """Integrals and shear coefficients over a conforming mesh of bilinear quadrilaterals.
+    """Integrals over a conforming mesh of bilinear quadrilaterals, and what follows from them.
 
     The area integrals are exact for the meshed section. The shear coefficients are Cowper's (1966),
-    from Saint-Venant's flexure function computed on the same mesh.
+    from Saint-Venant's flexure function computed on the same mesh; J is from his warping function.
 
     The nodes (n, 2) are (y, z) [m]; quads (m, 4) turn counter-clockwise. A symmetric mesh is the
     half y >= 0 of a section symmetric about y = 0; the properties are those of the whole.
@@ -102,7 +105,8 @@ def section_properties(
     # a mesh finer on one side of a symmetric outline turns the axes by some 1e-4 rad
     if not symmetric and abs((mesh.weight * y * z).sum()) > 1e-3 * max(second_y, second_z):
         raise InputError("section mesh: y and z must be principal directions of the section")
-    # vertical shear: the flexure function is even in y, the plane y = 0 is free; lateral: odd
+    # vertical shear: the flexure function is even in y, the plane y = 0 is free; lateral: odd, and
+    # so is the warping function
     on_plane = np.flatnonzero(np.abs(x[:, 0]) < 1e-9) if symmetric else None
     return SectionProperties(
         area=float(area),
@@ -111,4 +115,5 @@ def section_properties(
         centroid_z=float(centre[1]),
         shear_coefficient_z=shear_coefficient(mesh, centre, 1, poisson_ratio),
         shear_coefficient_y=shear_coefficient(mesh, centre, 0, poisson_ratio, on_plane),
+        torsion_constant=whole * torsion_constant(mesh, on_plane),
     )

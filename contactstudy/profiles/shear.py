@@ -1,4 +1,4 @@
-"""Timoshenko's shear coefficient after Cowper, from Saint-Venant's flexure on a mesh."""
+"""Saint-Venant's flexure and torsion on a mesh: Cowper's shear coefficient, torsion constant."""
 
 from dataclasses import dataclass
 
@@ -88,8 +88,6 @@ def shear_coefficient(
     float
         Shear coefficient [-].
     """
-    from scipy.sparse.linalg import splu
-
     nu, weight, grad = poisson_ratio, mesh.weight, mesh.gradient
     a = mesh.point[..., direction] - centroid[direction]
     b = mesh.point[..., 1 - direction] - centroid[1 - direction]
@@ -102,18 +100,58 @@ def shear_coefficient(
         + np.einsum("mg,mgi->mi", weight * across, grad[..., 1 - direction])
         + 2.0 * (1.0 + nu) * np.einsum("mg,gi->mi", weight * a, mesh.shape)
     )
-    stiffness = np.einsum("mgid,mgjd,mg->mij", grad, grad, weight)
-    quads, n = mesh.quads, mesh.n_nodes
-    rhs = np.bincount(quads.ravel(), load.ravel(), minlength=n)
-    rows, cols = np.repeat(quads, 4, axis=1).ravel(), np.tile(quads, (1, 4)).ravel()
-    matrix = sp.coo_array((stiffness.ravel(), (rows, cols)), shape=(n, n)).tocsc()
     # without a plane of antisymmetry chi is known up to a constant, which int a = 0 removes
-    fixed = quads[:1, 0] if antisymmetry_nodes is None else antisymmetry_nodes
-    free = np.setdiff1d(np.unique(quads), fixed)
-    chi = np.zeros(n)
-    chi[free] = splu(matrix[free][:, free]).solve(rhs[free])
-    chi_point = np.einsum("gi,mi->mg", mesh.shape, chi[quads])
+    chi = _harmonic(mesh, load, antisymmetry_nodes)
+    chi_point = np.einsum("gi,mi->mg", mesh.shape, chi[mesh.quads])
     area, inertia_a, inertia_b = weight.sum(), (weight * a * a).sum(), (weight * b * b).sum()
     flexure = (weight * a * (chi_point + a * b * b)).sum()
     bottom = nu / 2.0 * (inertia_b - inertia_a) - area / inertia_a * flexure
     return float(2.0 * (1.0 + nu) * inertia_a / bottom)
+
+
+def torsion_constant(mesh: IntegrationMesh, antisymmetry_nodes: IntArray | None = None) -> float:
+    """Saint-Venant's J of a mesh of a section, or of its half y >= 0 [m^4].
+
+    With the warping function, lap phi = 0 and d phi/dn = z n_y - y n_z on the boundary,
+
+        J = int y^2 + z^2 dA - int |grad phi|^2 dA,
+
+    about any pole; of a half the pole lies on its plane of symmetry. Elements give an upper bound.
+
+    Parameters
+    ----------
+    mesh : IntegrationMesh
+        Section, or one half of it.
+    antisymmetry_nodes : ndarray of int, optional
+        Nodes of a half on y = 0, where phi is zero.
+    """
+    y, z = np.moveaxis(mesh.point, -1, 0)
+    # about a pole amid the section, lest both integrals be large
+    z = z - (mesh.weight * z).sum() / mesh.weight.sum()
+    if antisymmetry_nodes is None:
+        y = y - (mesh.weight * y).sum() / mesh.weight.sum()
+    # the vector (z, -y) has no divergence: its flux is int (z dv/dy - y dv/dz) dA
+    turned = np.stack([z, -y], axis=-1)
+    load = np.einsum("mg,mgd,mgid->mi", mesh.weight, turned, mesh.gradient)
+    phi = _harmonic(mesh, load, antisymmetry_nodes)
+    warping = (load * phi[mesh.quads]).sum()  # = int |grad phi|^2
+    return float((mesh.weight * (y * y + z * z)).sum() - warping)
+
+
+def _harmonic(mesh: IntegrationMesh, load: Array, zero: IntArray | None) -> Array:
+    """Nodal values (n,) of u: int grad u.grad v = load(v), element by element (m, 4).
+
+    Zero at nodes, or else at one, where only differences count.
+    """
+    from scipy.sparse.linalg import splu
+
+    grad, quads, n = mesh.gradient, mesh.quads, mesh.n_nodes
+    stiffness = np.einsum("mgid,mgjd,mg->mij", grad, grad, mesh.weight)
+    rhs = np.bincount(quads.ravel(), load.ravel(), minlength=n)
+    rows, cols = np.repeat(quads, 4, axis=1).ravel(), np.tile(quads, (1, 4)).ravel()
+    matrix = sp.coo_array((stiffness.ravel(), (rows, cols)), shape=(n, n)).tocsc()
+    fixed = quads[:1, 0] if zero is None else zero
+    free = np.setdiff1d(np.unique(quads), fixed)
+    values = np.zeros(n)
+    values[free] = splu(matrix[free][:, free]).solve(rhs[free])
+    return values
