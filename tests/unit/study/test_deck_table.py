@@ -3,6 +3,7 @@
 import numpy as np
 import xarray as xr
 
+from contactstudy.figures import deck_damping
 from contactstudy.figures.deck import drawings, largest_station
 from contactstudy.study.kinds.passage.report.deck_table import deck_table
 
@@ -57,10 +58,25 @@ def test_drawn_with_the_largest_values_in_the_caption():
     assert len(made.draw().axes) == 2
 
 
+def test_realised_damping_of_the_longest_span():
+    results = Results(one=deck(-1.2e-3))
+    (made,) = deck_damping.drawings(results)
+    # 1 % at f and 4 f; between x f and 4 x f: (x + 4/x)/5, at 9 f
+    assert "1.00 % at 7.83 Hz; 1.00 % at 31.3 Hz; 1.89 % at 70.4 Hz" in made.caption
+    (axes,) = made.draw().axes
+    curve, squares = axes.lines[0], axes.lines[1]
+    np.testing.assert_allclose(squares.get_ydata(), [1.0, 1.0, (9.0 + 4.0 / 9.0) / 5.0])
+    lowest = np.argmin(curve.get_ydata())
+    # least at sqrt(f 4 f) = 2 f: 4/5 of it
+    np.testing.assert_allclose(curve.get_xdata()[lowest], 2 * squares.get_xdata()[0], rtol=0.02)
+    np.testing.assert_allclose(curve.get_ydata()[lowest], 0.8, rtol=1e-3)
+
+
 def test_nothing_without_a_deck():
     nowhere = {key: [np.nan] * 3 for key in deck(1.0)}
     assert deck_table(Results(one=nowhere)) == []
     assert drawings(Results(one=nowhere)) == []
+    assert deck_damping.drawings(Results(one=nowhere)) == []
     results = Results()
     results.runs = {"one": xr.Dataset()}
     assert drawings(results) == []

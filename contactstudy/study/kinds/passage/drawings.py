@@ -3,6 +3,7 @@
 from contactstudy.figures import (
     bands,
     deck,
+    deck_damping,
     histories,
     irregularity,
     ladder,
@@ -22,8 +23,8 @@ from contactstudy.plot.drawing import Drawing
 from contactstudy.study.results import StudyResults
 
 _FAMILIES = (
-    model, trust, stiffness, ladder, measured, irregularity, histories, bands, deck, patch,
-    patch_status, stress, patch_history, section, press, passing,
+    model, trust, stiffness, ladder, measured, irregularity, histories, bands, deck, deck_damping,
+    patch, patch_status, stress, patch_history, section, press, passing,
 )  # fmt: skip
 
 

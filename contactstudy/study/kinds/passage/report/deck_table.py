@@ -8,10 +8,10 @@ import numpy as np
 
 from contactstudy.compare.bridge_codes import amplification, dynamic_factor, limits
 from contactstudy.figures.deck import largest_station
+from contactstudy.figures.deck_damping import bridge_of
 from contactstudy.plot.text import label, number
 from contactstudy.report.blocks import Block, table
 from contactstudy.study.results import StudyResults
-from contactstudy.track.bridge import Bridge
 
 _COLUMNS = ["Run", "Deflection (mm)", "Static (mm)", "Dynamic factor", "Acceleration (m/s²)"]
 
@@ -56,10 +56,6 @@ def _beside(results: StudyResults, station: float) -> str:
 
 def _span(track: dict[str, Any], station: float) -> tuple[float, float]:
     """Length of the span under a station [m], and its first frequency simply supported [Hz]."""
-    from contactstudy.validation import entries, read
-
-    known = {key: track[key] for key in entries(Bridge) if key in track}
-    bridge, problems = read(Bridge, known, "track")
-    assert not problems
+    bridge = bridge_of(track)
     k = int(np.clip(np.searchsorted(bridge.supports, station) - 1, 0, len(bridge.spans) - 1))
     return bridge.spans[k], bridge.deck.frequency(bridge.spans[k])

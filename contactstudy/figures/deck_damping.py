@@ -1,0 +1,79 @@
+"""The damping ratio that a deck has over frequency, by its Rayleigh damping."""
+
+from functools import partial
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from contactstudy.arrays import Array
+from contactstudy.figures.deck import largest_station
+from contactstudy.plot.drawing import Drawing
+from contactstudy.plot.style import BLACK, GREY, VERMILION, figure_legend, new_figure
+from contactstudy.plot.text import number
+from contactstudy.study.results import StudyResults
+from contactstudy.track.bridge import Bridge
+from contactstudy.track.deck import realised_ratio
+
+_MODES = 3
+_UP_TO = 100.0  # Hz, at least
+_TICKS = (0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500, 1000)
+
+
+def drawings(results: StudyResults) -> list[Drawing]:
+    """One figure where all runs recorded a deck."""
+    if largest_station(results) is None:
+        return []
+    bridge = bridge_of(results.config["track"])
+    return [Drawing("deck_damping", _caption(bridge), partial(_draw, bridge))]
+
+
+def bridge_of(track: dict[str, Any]) -> Bridge:
+    """The bridge of a resolved study's track."""
+    from contactstudy.validation import entries, read
+
+    known = {key: track[key] for key in entries(Bridge) if key in track}
+    bridge, problems = read(Bridge, known, "track")
+    assert not problems
+    return bridge
+
+
+def bending_frequencies(bridge: Bridge) -> Array:
+    """First frequencies of the longest span in bending, simply supported, i^2 f_1 (n,) [Hz]."""
+    first = bridge.deck.frequency(max(bridge.spans))
+    return np.asarray(first * np.arange(1, _MODES + 1) ** 2)
+
+
+def _draw(bridge: Bridge) -> Figure:
+    figure = new_figure(2.4)
+    axes = figure.subplots()
+    modes = bending_frequencies(bridge)
+    frequency = np.geomspace(0.5 * modes[0], max(_UP_TO, 1.5 * modes[-1]), 200)
+    coefficients = bridge.rayleigh
+    axes.plot(frequency, 100 * realised_ratio(coefficients, frequency), color=BLACK, lw=1.0)
+    axes.plot(modes, 100 * realised_ratio(coefficients, modes), ls="none", marker="s", ms=4,
+              mfc="none", color=VERMILION, label="bending of the longest span")  # fmt: skip
+    axes.axhline(100 * bridge.deck.damping_ratio, color=GREY, lw=0.7, ls=(0, (4, 2)),
+                 label="ratio asked for")  # fmt: skip
+    axes.set(xscale="log", xlabel="Frequency (Hz)", ylabel="Damping ratio (%)")
+    ticks = [t for t in _TICKS if frequency[0] <= t <= frequency[-1]]
+    axes.set_xticks(ticks, [f"{t:g}" for t in ticks])
+    axes.set_xticks([], minor=True)
+    axes.set_ylim(bottom=0.0)
+    axes.margins(x=0)
+    figure_legend(figure, axes)
+    return figure
+
+
+def _caption(bridge: Bridge) -> str:
+    modes = bending_frequencies(bridge)
+    told = [
+        f"{number(100 * float(ratio), 3)} % at {number(float(f), 3)} Hz"
+        for f, ratio in zip(modes, realised_ratio(bridge.rayleigh, modes), strict=True)
+    ]
+    return (
+        "Damping ratio of a deck over frequency, as Rayleigh's damping gives it: "
+        f"ζ = a/(2ω) + bω/2. Squares: the first {_MODES} bending frequencies of the longest span, "
+        f"simply supported: {'; '.join(told)}. Dashed: the ratio that was asked for, "
+        f"{number(100 * bridge.deck.damping_ratio, 3)} %."
+    )
