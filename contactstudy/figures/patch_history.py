@@ -30,7 +30,9 @@ def _draw(results: StudyResults) -> Figure:
             run = results.runs[run_name]
             if has_signal(run, name):
                 x, line = position(run), style.line | {"linewidth": 0.5}
-                ax.plot(x, values(run, name) * scale, label=label(run_name), **line)
+                order = 3.0 if run_name == results.reference else 2.5
+                y = values(run, name) * scale
+                ax.plot(x, y, label=label(run_name), zorder=order, **line)
                 if start > x[0]:
                     ax.axvspan(x[0], start, color=SHADE, lw=0, zorder=0)
         ax.set_ylabel(text)
@@ -44,16 +46,17 @@ def _draw(results: StudyResults) -> Figure:
 
 def _caption(results: StudyResults) -> str:
     text = "Contact area and highest nodal pressure along the run."
-    start = fade_end(results)
+    start, left = fade_end(results), 0.0
     for name, run in results.runs.items():
         if not (has_signal(run, "contact_area") and has_signal(run, "peak_pressure")):
             continue
         keep = position(run) >= start
         area = values(run, "contact_area")[keep] * 1e6
         peak = values(run, "peak_pressure")[keep] * 1e-6
+        when = "The" if "After" in text else "After the fade-in the"  # once for all runs
         text += (
-            f" After the fade-in the area of {label(name)} lies between {number(area.min())} and "
-            f"{number(area.max())} mm² (mean {number(area.mean())} mm²) and the peak pressure "
+            f" {when} area of {label(name)} lies between {number(area.min())} and "
+            f"{number(area.max())} mm² (mean {number(area.mean())} mm²) and its peak pressure "
             f"between {number(peak.min())} and {number(peak.max())} MPa."
         )
         if has_signal(run, "patch_count"):
@@ -66,6 +69,5 @@ def _caption(results: StudyResults) -> str:
                     "comes or goes."
                 )
         if has_signal(run, "penetration"):
-            left = values(run, "penetration")[keep].max() * 1e9
-            text += f" The bodies overlap by at most {number(left)} nm."
-    return text
+            left = max(left, float(values(run, "penetration")[keep].max()))
+    return text + (f" The bodies overlap by at most {number(left * 1e9)} nm." if left else "")

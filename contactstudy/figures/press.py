@@ -13,6 +13,9 @@ from contactstudy.plot.style import BLACK, VERMILION, new_figure
 from contactstudy.plot.text import label, number
 from contactstudy.study.results import StudyResults
 
+_HERTZ = 1.5
+"""Exponent of Hertz's law; bodies that also give linearly have a smaller one."""
+
 
 def drawings(results: StudyResults) -> list[Drawing]:
     """One figure for the first run that carries a static press, else none."""
@@ -38,6 +41,12 @@ def exponent(force: Array, approach: Array) -> float:
     return float(np.polyfit(np.log(approach), np.log(force), 1)[0])
 
 
+def power_law(force: Array, approach: Array, at: Array) -> Array:
+    """Force (n,) in N of the power law through all points, at approaches (n,) in m."""
+    found: Array = np.exp(np.polyval(np.polyfit(np.log(approach), np.log(force), 1), np.log(at)))
+    return found
+
+
 def own_give(force: Array, approach: Array, hertz: Array) -> float:
     """Linear flexibility c [m/N] of the bodies beside the contact, by least squares.
 
@@ -57,6 +66,11 @@ def _draw(force: Array, approach: Array, hertz: Array | None) -> Figure:
         text = "Hertz and a linear give of the bodies, fitted"
         both = hertz + own_give(force, approach, hertz) * force
         axes.plot(both * 1e6, force * 1e-3, color=VERMILION, ls="--", label=text)
+    else:
+        text = "power law, fitted"
+        x = np.linspace(approach.min(), approach.max(), 100)
+        axes.plot(x * 1e6, power_law(force, approach, x) * 1e-3, color=VERMILION, ls="--",
+                  label=text)  # fmt: skip
     axes.set(xlabel="Approach (µm)", ylabel="Force (kN)")
     axes.legend(loc="upper left")
     return figure
@@ -68,6 +82,8 @@ def _caption(name: str, force: Array, approach: Array, hertz: Array | None) -> s
         "of the wheel's hub to the rail's centre line. "
         f"Fitted exponent {number(exponent(force, approach), 4)}."
     )
+    if hertz is None and exponent(force, approach) > _HERTZ:
+        text += " It is above Hertz's 1.5: more comes into contact as the load grows."
     if hertz is not None:
         k, give = len(force) // 2, own_give(force, approach, hertz)
         left = float(np.abs(approach - hertz - give * force).max())

@@ -53,8 +53,13 @@ def fade_end(results: StudyResults) -> float:
 
 
 def others(results: StudyResults) -> list[str]:
-    """Runs that are compared with the reference: all others that travel its way."""
-    reference = results.runs[str(results.reference)]
+    """Runs that are compared with the reference: all others that travel its way.
+
+    None where the reference is none of the runs, as in a sweep, which keeps no histories.
+    """
+    reference = results.runs.get(str(results.reference))
+    if reference is None:
+        return []
     return [
         name
         for name, run in results.runs.items()

@@ -3,12 +3,15 @@
 import math
 from typing import Any
 
+from contactstudy.plot.text import exact
 from contactstudy.report.blocks import Block, table
 from contactstudy.report.quantity import quantity
 from contactstudy.study.kind import find_kind
 from contactstudy.study.results import StudyResults
 from contactstudy.validation import Entry, entries
 
+_SLOPES = ("rail_inclination",)
+"""Angles that are given as slopes."""
 _LONG = 8  # values of a list
 _NAMES = {
     "from": "wheel from",
@@ -40,6 +43,8 @@ def parameter_tables(results: StudyResults) -> list[Block]:
             known, rows = entries(kind.tables[section]), []
             for key, value in values.items():
                 shown, unit = _shown(value, results.units.get(f"{section}.{key}", ""))
+                if key in _SLOPES and value:
+                    shown, unit = f"1:{exact(1.0 / math.tan(value))}", ""
                 given_by = origin(known.get(key), value)
                 if f"{section}.{key}" in varied:
                     shown, unit, given_by = "varied", "", "study"

@@ -8,7 +8,7 @@ from contactstudy.figures.histories import shown_limit, swings_quickly
 from contactstudy.figures.irregularity import irregularity_of, mean_level_difference, within
 from contactstudy.figures.passing_components import all_passing
 from contactstudy.figures.patch import bilinear, patch_of
-from contactstudy.figures.press import own_give
+from contactstudy.figures.press import own_give, power_law
 from contactstudy.figures.signals import leaves_track, others
 from contactstudy.irregularity.shown import SpectrumCurve
 from contactstudy.plot.style import figure_style, run_styles, save
@@ -153,6 +153,7 @@ def test_signals_of_a_run_the_other_way_are_drawn_and_not_subtracted(results):
     runs["tangent"] = back.assign_attrs(travel="backward", start=6.0)
     other = type(results)(**{**vars(results), "runs": runs})
     assert others(other) == ["hertz_timoshenko", "point"]
+    assert others(type(results)(**{**vars(results), "runs": {}})) == []  # a sweep
     found = {made.name: made for made in drawings(other)}
     assert "tangent" not in found["third_octaves"].caption
     with figure_style():
@@ -175,6 +176,23 @@ def test_the_travelled_stretch_ends_where_the_profile_does(results):
     assert within((6.0, 715.0), profile) == (6.0, pytest.approx(35.95))
     assert within((-3.0, 30.0), profile) == (0.0, 30.0)
     assert within(None, profile) is None and within((0.0, 715.0), profile) is None
+
+
+def test_a_power_law_is_recovered_from_its_points():
+    x = np.array([1e-5, 2e-5, 4e-5, 8e-5])
+    force, at = 3e12 * x**1.7, np.array([1.5e-5, 5e-5])
+    assert power_law(force, x, at) == pytest.approx(3e12 * at**1.7)
+
+
+def test_the_patch_of_the_reference_is_drawn_on_top_and_overlap_told_once(results):
+    runs = {"surface": results.runs["surface"], "other": results.runs["surface"]}
+    runs = {k: run.assign(penetration=run["irregularity"] * 0 + 2e-9) for k, run in runs.items()}
+    made = {d.name: d for d in drawings(type(results)(**{**vars(results), "runs": runs}))}
+    caption = made["patch_history"].caption
+    assert caption.count("After the fade-in") == caption.count("overlap by at most 2.00 nm") == 1
+    with figure_style():
+        reference, other = made["patch_history"].draw().axes[0].lines
+    assert reference.get_zorder() > other.get_zorder()
 
 
 def test_long_wavelengths_beside_an_axis_are_plain_numbers(results, by_name):

@@ -1,5 +1,6 @@
 """The report: pages, texts, special characters, equal bytes, wording that follows the values."""
 
+import math
 import re
 from pathlib import Path
 
@@ -381,7 +382,23 @@ def test_an_unknown_error_of_the_reference_is_called_unknown(made, table, values
     others = {} if table == "journey" else {table: values}
     told, errors = content(changed(study, journey=journey, **others), False)["conclusion"]
     assert "not known" in sentences([told]) and named in sentences([told])
-    assert all(row[3] == "–" for row in errors["rows"])
+    assert [c["title"] for c in errors["columns"]] == ["Place", "Point model", "Error (%)"]
+
+
+def test_one_point_model_has_no_table_of_places(made):
+    study, *_ = made
+    runs = {name: study.config["runs"][name] for name in ("surface", "tangent")}
+    config = study.config | {"runs": runs}
+    (told,) = content(type(study)(**{**vars(study), "config": config}), False)["conclusion"]
+    assert "“tangent”" in sentences([told])
+
+
+def test_an_inclination_is_shown_as_a_slope(made):
+    study, *_ = made
+    config = study.config | {"wheelset": {"rail_inclination": math.atan(1 / 40)}}
+    tables = parameter_tables(type(study)(**{**vars(study), "config": config}))
+    (row,) = (r for t in tables for r in t["rows"] if r[0] == "rail inclination")
+    assert row[1:3] == ["1:40", ""]
 
 
 def test_against_a_point_model_nothing_is_concluded(bare):

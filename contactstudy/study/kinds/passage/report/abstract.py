@@ -86,7 +86,7 @@ def _case(results: StudyResults) -> str:
 
 def _other_way(results: StudyResults) -> list[str]:
     """Which runs are not compared with the reference, and why."""
-    if results.reference is None:
+    if results.reference not in results.runs:
         return []
     known = [results.reference, *others(results)]
     apart = [f"“{label(name)}”" for name in results.runs if name not in known]

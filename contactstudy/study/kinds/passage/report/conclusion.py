@@ -58,7 +58,8 @@ def conclusion(results: StudyResults) -> list[Block]:
     if not found:
         return []
     told = [_choice(results, found), _certainty(found, own, unknown)]
-    return [text(" ".join(s for part in told for s in part)), _table(found, own)]
+    said = text(" ".join(s for part in told for s in part))
+    return [said, _table(found, own)] if len(found) > 1 else [said]  # which says it all of one
 
 
 def compared(results: StudyResults) -> list[Compared]:
@@ -148,7 +149,7 @@ def _certainty(found: list[Compared], own: ReferenceError | None, unknown: str) 
 
 
 def _table(found: list[Compared], own: ReferenceError | None) -> Block:
-    columns = ["Place", "Point model", "Error (%)", "Reference’s own (%)"]
+    columns = ["Place", "Point model", "Error (%)"] + ["Reference’s own (%)"] * (own is not None)
     softer = {one.softer[0] for one in found if one.softer is not None}
     if softer:
         less = exact(100 * (1 - softer.pop()), 2)
@@ -156,7 +157,7 @@ def _table(found: list[Compared], own: ReferenceError | None) -> Block:
     rows = []
     for one in found:
         row = [str(one.rank), label(one.name), percent(one.dynamic, 3)]
-        row.append(percent(own.dynamic) if own else "–")
+        row += [percent(own.dynamic)] if own else []
         if len(columns) > len(row):
             row.append(percent(one.softer[1], 3) if one.softer else "–")
         rows.append(row)
