@@ -22,7 +22,7 @@ from contactstudy.figures.signals import (
 )
 from contactstudy.plot.drawing import Drawing
 from contactstudy.plot.style import BLACK, SHADE, LineStyle, figure_legend, new_figure
-from contactstudy.plot.text import label, number
+from contactstudy.plot.text import between, label, number
 from contactstudy.study.results import StudyResults
 
 ZOOM_LENGTH = 1.8  # m, three bays of the usual 0.6 m
@@ -179,8 +179,8 @@ def _caption(results: StudyResults, signal: Signal) -> str:
     y = y[position(results.runs[reference]) >= start] * signal.scale
     rest = ", counted from rest" if signal.name in WITHOUT_STATIC else ""
     told = [
-        f"{signal.label}{rest}. Behind the fade-in {label(reference)} lies between "
-        f"{number(y.min(), 4)} and {number(y.max(), 4)} {signal.unit}."
+        f"{signal.label}{rest}. Behind the fade-in {label(reference)} "
+        f"{between(y.min(), y.max(), 4)} {signal.unit}."
     ]
     largest = []
     for name in others(results):

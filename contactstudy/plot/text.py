@@ -44,6 +44,12 @@ def number(value: float, digits: int = 3) -> str:
     return text.replace("-", "\N{MINUS SIGN}", 1)
 
 
+def between(low: float, high: float, digits: int = 3) -> str:
+    """The range of a quantity: "lies between 17.7 and 119", or "stays at 46.6" of a constant."""
+    ends = number(low, digits), number(high, digits)
+    return f"stays at {ends[0]}" if ends[0] == ends[1] else f"lies between {ends[0]} and {ends[1]}"
+
+
 def exact(value: float, digits: int = 6) -> str:
     """Return a given (not a computed) value in plain text, without trailing zeros."""
     text = number(value, digits)

@@ -21,12 +21,14 @@ def content(results: StudyResults, timings: bool) -> Content:
     report = _report(results, timings)
     chapters = list(_chapters(results, timings))
     tables = parameter_tables(results)
+    alone = len(results.runs) == 1 and not results.swept
     data: Content = {
         "title": results.title,
         "subtitle": f"Study {results.name} · contactstudy {__version__}",
         "name": results.name,
         "abstract": _abstract(results, report, chapters),
         "conclusion": [] if results.swept else list(report.conclusion),
+        "subject-title": "What is computed" if alone else "What is compared",
         "subject": [*paragraphs(results.description), *report.subject],
         "parameters": [*([report.sources] if report.sources else []), *tables],
         "results": list(report.parts),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
 from contactstudy.compare.statistics import running, spread
 from contactstudy.figures.axes import parts
@@ -60,5 +61,6 @@ def _draw(quantity: Shown) -> Figure:
         right.set_ylim(low - margin, high + margin)
     left.set(xlabel=quantity.title, ylabel="Share of the sample", ylim=(0, 1))
     right.set(xlabel="Number of samples", ylabel="Mean")
+    right.xaxis.set_major_locator(MaxNLocator(integer=True))
     figure_legend(figure, left)
     return figure

@@ -12,7 +12,7 @@ from contactstudy.figures.press import own_give, power_law
 from contactstudy.figures.signals import leaves_track, others
 from contactstudy.irregularity.shown import SpectrumCurve
 from contactstudy.plot.style import figure_style, run_styles, save
-from contactstudy.plot.text import capital, exact, label, number, tick
+from contactstudy.plot.text import between, capital, exact, label, number, tick
 from contactstudy.study.kinds.passage.drawings import drawings
 
 LABELS = {
@@ -235,6 +235,11 @@ def test_runs_differ_in_dashes_as_well_as_in_colour():
 )
 def test_number_to_three_digits(value, text):
     assert number(value) == text
+
+
+def test_a_range_without_width_is_a_value():
+    assert between(46.6001, 46.6002) == "stays at 46.6"
+    assert between(-1.5, 17.68) == "lies between −1.50 and 17.7"
 
 
 def test_given_values_lose_trailing_zeros():

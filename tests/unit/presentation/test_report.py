@@ -431,6 +431,7 @@ def test_one_run_has_no_errors_and_nothing_to_compare(made):
     other = type(study)(**{**vars(study), **alone})
     data = content(other, False)
     assert "Errors" not in [part["title"] for part in data["results"]]
+    assert data["subject-title"] == "What is computed"
     assert "nothing to compare" in " ".join(data["abstract"])
 
 

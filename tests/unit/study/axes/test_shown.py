@@ -69,6 +69,15 @@ def test_the_distribution_of_seeds_is_recovered(swept):
     assert float(row["± 95 %"]) == pytest.approx((high - low) / 2, rel=5e-3)
 
 
+def test_samples_are_counted_in_whole_numbers(swept):
+    results = swept('[sweep]\n"law.seed" = "1 to 3"\n')
+    made = next(d for d in drawings(results) if "in a sample of 3" in d.caption)
+    with figure_style():
+        right = made.draw().axes[1]
+    assert right.get_xlabel() == "Number of samples"
+    assert all(float(at).is_integer() for at in right.get_xticks())
+
+
 @pytest.mark.parametrize(
     ("text", "said"),
     [

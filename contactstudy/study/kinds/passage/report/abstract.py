@@ -8,6 +8,7 @@ from contactstudy.compare.signals import position, speed, values
 from contactstudy.figures.irregularity import comparisons, irregularity_of
 from contactstudy.figures.passing_components import all_passing
 from contactstudy.figures.signals import fade_end, others
+from contactstudy.plot.text import between as range_of
 from contactstudy.plot.text import capital, exact, label, listing, number
 from contactstudy.report.quantity import grouped, percent
 from contactstudy.study.kinds.passage.report import lost, rungs
@@ -78,8 +79,8 @@ def _case(results: StudyResults) -> str:
     after = force[x >= fade_end(results)]
     whose = "of the reference " if results.reference else ""
     told.append(
-        f"The contact force {whose}is {number(force[0] * 1e-3)} kN at rest and lies between "
-        f"{number(after.min() * 1e-3)} and {number(after.max() * 1e-3)} kN in motion."
+        f"The contact force {whose}is {number(force[0] * 1e-3)} kN at rest and "
+        f"{range_of(after.min() * 1e-3, after.max() * 1e-3)} kN in motion."
     )
     return " ".join([*told, *_other_way(results), *lost.sentences(results)])
 
