@@ -96,6 +96,17 @@ class Quantity:
 
 
 @dataclass(frozen=True)
+class Marks:
+    """Values of a key that mean something, marked where the key is an axis of a figure."""
+
+    name: str
+    #: In the key's SI unit.
+    at: Sequence[float]
+    #: Of the caption, before the values that lie within the figure.
+    caption: str
+
+
+@dataclass(frozen=True)
 class Report:
     """What a kind has to say of a study in the report, as plain data."""
 
@@ -208,6 +219,10 @@ class Kind(ABC):
 
     def drawings(self, results: StudyResults) -> Sequence[Any]:
         """Each a `contactstudy.plot.drawing.Drawing`, in the order of the report."""
+        return ()
+
+    def marks(self, results: StudyResults, key: str) -> Sequence[Marks]:
+        """What is marked along a varied key."""
         return ()
 
     def draws_grid(self, results: StudyResults) -> bool:

@@ -47,6 +47,11 @@ class Axles(Parameters):
         """Of a wheel of the first axle [N]."""
         return 0.5 * self.axles[1][0]
 
+    @property
+    def repeat_length(self) -> float | None:
+        """L_c, at which groups of axles repeat [m]; None where they do not."""
+        return None
+
     def vehicle(self, rails: int = 1) -> Vehicle:
         """A bare wheel under every axle on one rail or two."""
         behind, loads = (np.asarray(part, dtype=float) for part in self.axles)
@@ -106,6 +111,11 @@ class HighSpeedLoadModel(Axles):
     ] = "A1"  # fmt: skip
 
     @property
+    def repeat_length(self) -> float:
+        """Length of a coach [m]."""
+        return _HSLM_A[self.hslm][1]
+
+    @property
     def axles(self) -> tuple[Sequence[float], Sequence[float]]:
         """See `Axles.axles`."""
         coaches, length, spacing, force = _HSLM_A[self.hslm]
@@ -127,6 +137,11 @@ class FreightWagons(Axles):
     """
 
     wagons: Annotated[q.Count, "number of wagons"] = 10
+
+    @property
+    def repeat_length(self) -> float | None:
+        """Length of a wagon [m]."""
+        return 11.25 if self.wagons > 1 else None
 
     @property
     def axles(self) -> tuple[Sequence[float], Sequence[float]]:

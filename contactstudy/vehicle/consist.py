@@ -88,6 +88,15 @@ class Train(Parameters):
         return sum(car.length for car, _ in self.consist) + sum(self._gaps)
 
     @property
+    def repeat_length(self) -> float | None:
+        """L_c, of the commonest car with the gap behind it [m]; None of a single car."""
+        lengths = [car.length for car, _ in self.consist]
+        if len(lengths) == 1:
+            return None
+        pitches = [length + gap for length, gap in zip(lengths, self._gaps, strict=False)]
+        return max(pitches, key=pitches.count)
+
+    @property
     def leading(self) -> Car:
         """The first car."""
         return self.consist[0][0]

@@ -27,7 +27,7 @@ def drawings(results: StudyResults) -> list[Drawing]:
         design = quantity.data.attrs["design"]
         large = not quantity.data.attrs["refined"] and len(_free(quantity)) == _MAPPED
         if not (large and design in mapped):
-            made += _of(quantity)
+            made += _of(quantity, lambda key: find_kind(results.kind).marks(results, key))
         mapped |= {design} if large else set()
     count, found = Counter[str](), []
     for one in made:  # names of files are distinct
@@ -42,7 +42,7 @@ def _free(quantity: Shown) -> list[str]:
     return [dim for dim in quantity.axes if not drawn(quantity.data, dim)]
 
 
-def _of(quantity: Shown) -> list[Drawing]:
+def _of(quantity: Shown, marks: lines.MarksOf) -> list[Drawing]:
     if quantity.data.attrs["refined"]:
         return refined.drawings(quantity)
     free = _free(quantity)
@@ -50,6 +50,6 @@ def _of(quantity: Shown) -> list[Drawing]:
         return samples.drawings(quantity)
     longer = sorted((quantity.data.sizes[dim] for dim in free), reverse=True)
     if len(free) == 1 or (len(free) == 2 and longer[1] <= lines.FEW):
-        return lines.drawings(quantity, free)
+        return lines.drawings(quantity, free, marks)
     draw = effects.drawings if too_many(quantity, free) else maps.drawings
     return draw(quantity, free)

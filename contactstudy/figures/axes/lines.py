@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -11,24 +13,49 @@ from matplotlib.figure import Figure
 from contactstudy.arrays import Array
 from contactstudy.figures.axes import parts
 from contactstudy.plot.drawing import Drawing
-from contactstudy.plot.style import LineStyle, figure_legend, run_styles
-from contactstudy.plot.text import capital, label
+from contactstudy.plot.style import GREY, LineStyle, figure_legend, run_styles
+from contactstudy.plot.text import capital, label, number
 from contactstudy.study.axes.axis import AxisOf, axis_of
 from contactstudy.study.axes.shown import RUN, Shown
+from contactstudy.study.kind import Marks
 
 FEW = 4
 """Values of a second key for which there are panels or lines."""
 _CAPTION = 8  # lines that a caption describes
+_MARKED = (("Dashed", (0, (4, 2))), ("Dotted", (0, (1, 2))))
+MarksOf = Callable[[str], Sequence[Marks]]
+"""What is marked along a key."""
 
 
-def drawings(quantity: Shown, free: list[str]) -> list[Drawing]:
+def drawings(quantity: Shown, free: list[str], marks: MarksOf) -> list[Drawing]:
     """One figure."""
     long, *short = sorted(free, key=lambda dim: -quantity.data.sizes[dim])
-    return [
-        Drawing(
-            quantity.file, _caption(quantity, long, short), lambda: _draw(quantity, long, short)
-        )
-    ]
+    marked = _marked(quantity, long, marks)
+    caption = _caption(quantity, long, short)
+    for mark in marked:
+        told = ", ".join(number(v, 3) for v in mark.at)
+        caption += f" {_style_of(marked, mark)[0]}: {mark.caption}: {told}."
+    return [Drawing(quantity.file, caption, lambda: _draw(quantity, long, short, marked))]
+
+
+def _style_of(marked: list[Marks], mark: Marks) -> tuple[str, Any]:
+    return _MARKED[marked.index(mark) % len(_MARKED)]
+
+
+def _marked(quantity: Shown, long: str, marks: MarksOf) -> list[Marks]:
+    """Those of the marks along a key that lie in the figure, in the axis's unit."""
+    along = axis_of(quantity.data, long)
+    if long not in quantity.data.coords or not along.numeric:
+        return []
+    values = np.asarray(quantity.data[long].values, dtype=float)
+    factor = along.at[-1] / values[-1] if values[-1] else 1.0
+    low, high = along.at.min(), along.at.max()
+    found = []
+    for mark in marks(long):
+        inside = [factor * v for v in mark.at if low <= factor * v <= high]
+        if inside:
+            found.append(replace(mark, at=inside))
+    return found
 
 
 def _curves(
@@ -49,7 +76,7 @@ def _curves(
     return found
 
 
-def _draw(quantity: Shown, long: str, short: list[str]) -> Figure:
+def _draw(quantity: Shown, long: str, short: list[str], marked: list[Marks]) -> Figure:
     curves, along = _curves(quantity, long, short), axis_of(quantity.data, long)
     panels = list(dict.fromkeys(panel for panel, _ in curves))
     lines = list(dict.fromkeys(line for _, line in curves))
@@ -61,6 +88,10 @@ def _draw(quantity: Shown, long: str, short: list[str]) -> Figure:
         for line in lines:
             _line(axes, along, *curves[panel, line], styles[line], line)
         parts.mark_failed(axes, holes)
+        for mark in marked:
+            _, style = _style_of(marked, mark)
+            for k, at in enumerate(mark.at):
+                axes.axvline(at, color=GREY, lw=0.8, ls=style, label=None if k else mark.name)
         parts.label_axis(axes, along, "x")
         axes.set_title(panel)
         axes.set_yscale("log" if logarithmic else "linear")

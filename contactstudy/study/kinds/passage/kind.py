@@ -13,6 +13,7 @@ _HERE = "contactstudy.study.kinds.passage"
 _FORCE, _NAME = "contact_force", "contact force"
 _PART = {"signal": (_FORCE,), "part": ("irregularity", "dynamic")}
 _TOTAL = {"signal": (_FORCE,), "part": ("total",)}
+_DECK = ({"signal": ("deck_displacement",)}, {"signal": ("deck_acceleration",)})
 FIELDS = "fields"
 """Folder of the fields for ParaView."""
 
@@ -29,6 +30,8 @@ class PassageKind(Kind):
         Quantity("relative_l2", f"Error of the {_NAME}, {{part}} part (%)", _PART, 100.0),
         Quantity("relative_l2", f"Error of the {_NAME}, total (%)", _TOTAL, 100.0),
         Quantity("largest", f"Largest {_NAME} (kN)", {"signal": (_FORCE,)}, 1e-3),
+        Quantity("largest_of_deck", "Largest displacement of the deck (mm)", _DECK[0], 1e3),
+        Quantity("largest_of_deck", "Largest acceleration of the deck (m/s²)", _DECK[1]),
         Quantity("lost_time", "Time without contact (ms)", {}, 1e3),
         Quantity("lost_length", "Way without contact (mm)", {}, 1e3),
         Quantity("impulse", "Impulse beyond the static load (N s)"),
@@ -72,6 +75,7 @@ class PassageKind(Kind):
     metrics = later(f"{_HERE}.metrics:metrics")
     drawings = later(f"{_HERE}.drawings:drawings")
     draws_grid = later(f"{_HERE}.drawings:draws_grid")
+    marks = later(f"{_HERE}.bridge_speeds:marks")
     write_files = later(f"{_HERE}.fields:write_files")
     report = later(f"{_HERE}.report:report")
     summary = later(f"{_HERE}.terminal:summary")

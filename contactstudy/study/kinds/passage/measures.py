@@ -6,6 +6,7 @@
     correlation, linf, rms (run, signal)          all these against the reference
     static, smallest, largest (run, signal)       at rest, and behind the fade-in
     root_mean_square (run, signal, part)          of the dynamic and the irregularity's part
+    largest_of_deck (run, signal)                 size, over all stations on decks
     contact_lost (run)                            share of the way without contact
     of defects also those of `contactstudy.study.kinds.passage.impacts`
 
@@ -41,11 +42,13 @@ _ERRORS = {
     "correlation": ("Pearson's correlation with the reference", _RUN),
     "sprague_geers": ("errors of Sprague and Geers", [*_RUN, "part", "measure"]),
 }
+_DECK = ("deck_displacement", "deck_acceleration")
 _OWN = {
     "static": (f"value at rest, {_UNIT}", _RUN),
     "smallest": (f"smallest value behind the fade-in, {_UNIT}", _RUN),
     "largest": (f"largest value behind the fade-in, {_UNIT}", _RUN),
     "root_mean_square": (f"root mean square of a part of the signal, {_UNIT}", [*_RUN, "part"]),
+    "largest_of_deck": (f"largest size over the stations on decks, {_UNIT}", _RUN),
     "contact_lost": ("share of the way without contact", ["run"]),
 }
 
@@ -97,6 +100,9 @@ def _by_part(entry: Mapping[str, Any], name: str) -> dict[str, Any]:
 def _own(run: xr.Dataset, start: float, of: Any) -> None:
     """Enter what a run's histories are by themselves."""
     x = position(run)
+    for signal in _DECK:
+        if signal in run and np.isfinite(run[signal].values).any():
+            of("largest_of_deck")[signal] = float(np.nanmax(np.abs(run[signal].values)))
     for name, variable in run.data_vars.items():
         signal = str(name)
         twin = signal.endswith((SMOOTH, SOFTER))

@@ -1,0 +1,89 @@
+"""Speeds of resonance and cancellation along the axis of a sweep; what is measured of decks."""
+
+import math
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from contactstudy.figures.axes import lines
+from contactstudy.study.axes.shown import Shown
+from contactstudy.study.kind import Marks, Quantity
+from contactstudy.study.kinds.passage import measures
+from contactstudy.study.kinds.passage.bridge_speeds import marks, speed_marks
+from contactstudy.vehicle import AxleLoads, FreightWagons, HighSpeedLoadModel, Train
+
+F1 = math.pi / (2 * 32.0**2) * math.sqrt(34.5e9 * 10.947 / 34e3)
+BRIDGE = {"structure": "bridge", "spans": [32.0, 20.0], "deck": "box_32m"}
+
+
+def test_resonance_and_cancellation_of_the_longest_span():
+    vehicle = {"type": "train", "cars": ["s300_end", "3 x s300"], "model": "planar", "gaps": [0.0]}
+    resonance, cancellation = speed_marks({"track": BRIDGE, "vehicle": vehicle})
+    np.testing.assert_allclose(resonance.at[:3], F1 * 25.0 / np.array([1, 2, 3]))
+    np.testing.assert_allclose(cancellation.at[:2], 64.0 * F1 / np.array([3, 5]))
+    assert "L_c = 25.0 m" in resonance.caption
+
+
+@pytest.mark.parametrize("vehicle", [{"type": "wheel_column"}, {"type": "train", "cars": ["s300"]},
+                                     {"type": "train", "cars": ["gone.toml"]}])  # fmt: skip
+def test_no_resonance_where_nothing_repeats(vehicle):
+    (only,) = speed_marks({"track": BRIDGE, "vehicle": vehicle})
+    assert only.name == "cancellation"
+
+
+def test_no_marks_without_a_bridge_or_with_one_that_varies():
+    config = {"track": {"structure": "ground"}, "vehicle": {}}
+    assert speed_marks(config) == []
+    results = SimpleNamespace(config={"track": BRIDGE}, designs={})
+    assert len(marks(results, "journey.speed")) == 1
+    assert marks(results, "journey.time_step") == []
+    both = xr.Dataset(
+        {"variant": (("journey.speed", "track.spans"), [[0]])},
+        {"journey.speed": [80.0], "track.spans": ["32 m"]},
+    )
+    results.designs = {"sweep": both}
+    assert marks(results, "journey.speed") == []
+
+
+def test_repeat_lengths():
+    assert HighSpeedLoadModel(hslm="A4").repeat_length == 21.0
+    assert FreightWagons(wagons=3).repeat_length == 11.25
+    assert FreightWagons(wagons=1).repeat_length is None
+    assert AxleLoads().repeat_length is None
+    assert Train(cars=("s300_end", "3 x s300"), gaps=(0.5,)).repeat_length == 25.5
+
+
+def test_marks_within_the_figure_are_drawn_in_its_unit():
+    speeds = ("journey.speed", np.array([50.0, 60.0, 70.0]), {"units": "m/s"})
+    data = xr.Dataset(
+        {
+            "variant": ("journey.speed", [0, 1, 2]),
+            "value": ("journey.speed", [1.0, 2.0, 3.0]),
+            "failure": ("journey.speed", ["", "", ""]),
+        },
+        {"journey.speed": speeds},
+        {"design": "sweep", "refined": 0},
+    )
+    quantity = Shown("value", data, data["value"], "Value (mm)", Quantity("value", "Value"), {})
+    given = [Marks("none", [10.0], "far"), Marks("resonance", [55.0, 65.0, 75.0], "resonance")]
+    (made,) = lines.drawings(quantity, ["journey.speed"], lambda key: given)
+    assert made.caption.endswith("Dashed: resonance: 198, 234.")
+    (axes,) = made.draw().axes
+    upright = [line.get_xdata()[0] for line in axes.lines[1:]]
+    np.testing.assert_allclose(upright, [198.0, 234.0])
+
+
+def test_largest_size_over_the_stations_of_decks():
+    values = [[np.nan] * 3, [0.0, -2.0, 1.0], [0.0, 0.5, 1.5]]
+    run = xr.Dataset(
+        {
+            "position": (("wheel", "time"), [[0.0, 1.0, 2.0]]),
+            "deck_displacement": (("station", "time"), values),
+            "deck_acceleration": (("station", "time"), np.full((3, 3), np.nan)),
+        }
+    )
+    found = {}
+    measures._own(run, 0.0, lambda variable: found.setdefault(variable, {}))
+    assert found["largest_of_deck"] == {"deck_displacement": 2.0}
