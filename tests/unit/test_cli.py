@@ -294,7 +294,7 @@ def test_output_that_nobody_takes():
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_interrupt_leaves_whole_files_and_the_next_call_goes_on(short, tmp_path, number):
     """Ctrl-C as a terminal sends it: to the command and all its workers."""
-    text = SHORT.replace('"0.2 ms"', '"0.4 us"')  # the runs take minutes
+    text = SHORT.replace('"0.2 ms"', '"40 ns"')  # half a million steps
     short.write_text(text + '[runs.quick]\nsolver = "point"\ntime_step = "0.2 ms"\n')
     out = tmp_path / "out"
     process = subprocess.Popen(
@@ -304,7 +304,7 @@ def test_interrupt_leaves_whole_files_and_the_next_call_goes_on(short, tmp_path,
         text=True,
         start_new_session=True,
     )
-    deadline = time.monotonic() + 60
+    deadline = time.monotonic() + 300  # compiling included, on a machine that does other things
     while not list(out.glob("runs/quick-*.npz")):
         assert process.poll() is None, process.communicate()
         assert time.monotonic() < deadline

@@ -177,7 +177,7 @@ def test_one_thread(dask, tasks):
 def study_file(folder: Path) -> Path:
     """A swept study with a measured level, in a folder that no worker stands in."""
     x = np.arange(0.0, 6.0, 0.01)
-    rows = [f"{a:.3f},{1e-4 * np.sin(2 * np.pi * a):.9f}" for a in x]
+    rows = [f"{a:.3f},{1e-2 * np.sin(2 * np.pi * a):.7f}" for a in x]
     (folder / "level.csv").write_text("\n".join(["x,z", *rows]) + "\n")
     path = folder / "measured.toml"
     path.write_text(STUDY)

@@ -31,6 +31,7 @@ PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 def test_links_of_the_pages_lead_somewhere(page):
     text = page.read_text("utf-8")
     links = [link for link in re.findall(r"\]\(([^)#]+)\)", text) if "://" not in link]
+    links = [link for link in links if not link.startswith(("reference/", "book/"))]  # generated
     assert all((page.parent / link).exists() for link in links), links
     assert "\t" not in text and max(map(len, text.splitlines())) < 250
 
@@ -94,15 +95,14 @@ def test_a_study_runs_without_writing_and_is_found_again(tmp_path, monkeypatch):
     assert list(results.runs) == ["point"]
     assert "Group: /point" in repr(results)
     assert "point" in results._repr_html_()
-    cs.run(study, SHORT | {"irregularity.seed": 2}, out="written")
-    assert cs.open("written")["point"].contact_force.equals(results.runs["point"].contact_force)
     assert sorted(path.name for path in tmp_path.iterdir()) == ["cache", "mine.toml"]
     kept = {path: path.stat().st_mtime_ns for path in (tmp_path / "cache" / "runs").iterdir()}
     again = cs.run(cs.load(study, SHORT | {"irregularity.seed": 2}))
     assert again.runs["point"].equals(results.runs["point"])
     assert {path: path.stat().st_mtime_ns for path in kept} == kept
     written = cs.run(study, SHORT | {"irregularity.seed": 2}, out=tmp_path / "out")
-    assert cs.open_results(tmp_path / "out")["point"].to_dataset().equals(written.tree["point"].ds)
+    for read in (cs.open, cs.open_results):
+        assert read(tmp_path / "out")["point"].to_dataset().equals(written.tree["point"].ds)
 
 
 def test_values_are_checked_as_those_of_a_file():

@@ -28,8 +28,12 @@ TIME_STEPS = (2e-4, 1e-4, 5e-5, 2.5e-5, 1.25e-5)
 
 
 def surface_run(*changes: str) -> xr.Dataset:
-    """Surface contact of the shortened study with keys set as on the command line."""
-    return execute_run(load_study(STUDY, (*SHORT, *changes)), "surface")
+    """Surface contact of the shortened study with keys set as on the command line.
+
+    What `changes` say takes the place of `SHORT`.
+    """
+    keys = dict(text.split("=", 1) for text in (*SHORT, *changes))
+    return execute_run(load_study(STUDY, [f"{k}={v}" for k, v in keys.items()]), "surface")
 
 
 def refined(

@@ -149,7 +149,7 @@ def test_a_worn_profile_from_a_file_beside_the_study(tmp_path):
         path.write_text(
             f'[positions]\nroll = 0\nwheels = ["left"]\nwheel_profile = "{profile}"\ncell = 5e-4\n'
         )
-        found.append(run_study(load_study(path), tmp_path / "out"))
+        found.append(run_study(load_study(path), tmp_path / f"out_{len(found)}"))
     drawn, worn = (results.runs["left"] for results in found)
     print(
         f"approach: drawn {float(drawn.approach[0]):.6e}, its points {float(worn.approach[0]):.6e}"

@@ -75,7 +75,7 @@ def test_report_of_a_series() -> None:
 
 def test_time_step_of_a_short_real_run() -> None:
     shorter = ("journey.to=13.6 m", "journey.fade_in=0.4 m", "solid.mesh_size=5 mm")
-    found = refined("journey.time_step", (4e-4, 2e-4, 1e-4), 1e-4, shorter)
+    found = refined("journey.time_step", (2e-4, 1e-4, 5e-5), 5e-5, shorter)
     print("against finest", found.against_finest, "orders", found.orders)
     assert np.all(found.against_finest[0, :3] > found.against_finest[1, :3])
     assert found.against_finest[1, 0] < 5e-3
