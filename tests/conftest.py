@@ -2,6 +2,8 @@
 
 import os
 
+import pytest
+from browser import chromium
 from hypothesis import settings
 
 from contactstudy.process import ONE_THREAD
@@ -13,3 +15,16 @@ os.environ.update(ONE_THREAD)
 settings.register_profile("repeatable", derandomize=True, deadline=None)
 settings.register_profile("random", derandomize=False, deadline=None, print_blob=True)
 settings.load_profile("repeatable")  # pytest --hypothesis-profile loads another one after this
+
+
+@pytest.fixture(scope="session")
+def session_browser():
+    with chromium() as made:
+        yield made
+
+
+@pytest.fixture
+def browser(session_browser):
+    """A headless Chromium, see `browser.py`; light, and of a desktop's size."""
+    session_browser.show()
+    return session_browser
