@@ -33,11 +33,12 @@ def at_rest(run: xr.Dataset, name: str) -> Array:
 
 
 def at_station(run: xr.Dataset, name: str, at: float | None) -> Array:
-    """Variable `name` (time,) at the station X [m], or of the leading wheel if that is None."""
+    """Variable `name` (time,) at the station or support X [m], or of the leading wheel for None."""
     if at is None:
         return values(run, name)
-    nearest = int(np.argmin(np.abs(run["station"].values - at)))
-    return np.asarray(run[name].isel(station=nearest), dtype=np.float64)
+    place = run[name].dims[0]
+    nearest = int(np.argmin(np.abs(run[place].values - at)))
+    return np.asarray(run[name].isel({place: nearest}), dtype=np.float64)
 
 
 def position(run: xr.Dataset) -> Array:

@@ -110,11 +110,15 @@ class Passage(Generic[T]):
             return self.track.track.length - self.way
         return self.way
 
+    @property
+    def rails(self) -> IntArray:
+        """(nc,) rail of the track under each contact."""
+        return np.asarray(self._running.contact_rails)
+
     @cached_property
     def rail_rows(self) -> TravellingRows:
         """Rows of the rail under each contact."""
-        rails = self._running.contact_rails
-        return TravellingRows(self.track, self.positions, rails, self.directions)
+        return TravellingRows(self.track, self.positions, self.rails, self.directions)
 
     @cached_property
     def roughness(self) -> Array:

@@ -13,6 +13,7 @@ from contactstudy.solvers.bridge_histories import BridgeHistories
 from contactstudy.solvers.histories import Histories
 from contactstudy.solvers.observers import Observer, Watch
 from contactstudy.solvers.passage import Passage
+from contactstudy.solvers.wheel_forces import WheelForces
 from contactstudy.track.discrete import DiscreteTrack
 from contactstudy.track.structure import StructureTrack
 
@@ -38,6 +39,7 @@ def run_through(
     watches: list[Watch] = [Histories(passage)]
     if isinstance(passage.track, StructureTrack):
         watches.append(BridgeHistories(cast(Passage[StructureTrack], passage)))
+        watches.append(WheelForces(passage))
     watches += [o.watch(passage, coupling) for o in observers]
     start = static_start(system, coupling, external, passage.wheels)
     steps = Steps(journey.time_step, journey.n_steps, lambda k: float(passage.positions[k, 0]))

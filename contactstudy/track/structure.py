@@ -20,9 +20,9 @@ from contactstudy.track.discrete import AssembledTrack, without_held
 from contactstudy.track.frame import Chain, Frame
 from contactstudy.track.model import Track
 from contactstudy.track.rail import Direction
-from contactstudy.track.space_beam import N_DOFS, RX, RY, RZ, UY, UZ, displacement
+from contactstudy.track.space_beam import N_DOFS, RX, RY, RZ, UY, UZ, Axis, displacement
 from contactstudy.track.structure_nodes import Nodes, nodes_of
-from contactstudy.track.structure_springs import all_springs, bearings
+from contactstudy.track.structure_springs import all_springs, along, at_nodes, bearings
 from contactstudy.track.supports import SupportedRail
 from contactstudy.validation import Parameters, Same
 
@@ -130,23 +130,29 @@ class StructureTrack(AssembledTrack, Parameters):
         found = [k for k, ends in enumerate(self.bridge.decks) if ends[0] <= x <= ends[-1]]
         return found[0] if found else None
 
-    @cached_property
-    def bearing_forces(self) -> tuple[Array, sp.csr_array, sp.csr_array]:
-        """X (m,) of the supports, and vertical forces on them in tension (m, n_dofs) @ u and @ v.
+    def bearing_rows(self, axis: Axis) -> tuple[sp.csr_array, sp.csr_array]:
+        """Forces on the supports along an axis in tension, (n_supports, n_dofs) @ u and @ v.
 
         All bearings of a support count together.
         """
         supports = self.bridge.supports
-        size = (len(supports), self.n_dofs)
-        forces = [sp.csr_array(size), sp.csr_array(size)]
-        for one in bearings(self.nodes, ("Z",)):
+        forces = [sp.csr_array((len(supports), self.n_dofs)) for _ in range(2)]
+        for one in bearings(self.nodes, (axis,)):
             at = of_support(one.x, supports)
             for k, values in enumerate((one.springs.stiffness, one.springs.damping)):
                 gather = sp.csr_array(
                     (values, (at, np.arange(len(at)))), shape=(len(supports), len(at))
                 )
                 forces[k] = forces[k] + gather @ self._frame.selected(one.springs.rows)
-        return supports, sp.csr_array(forces[0]), sp.csr_array(forces[1])
+        return sp.csr_array(forces[0]), sp.csr_array(forces[1])
+
+    def chain_rows(self, chain: Chain, x: Array, row: Array) -> sp.csr_array:
+        """A row (6,) over a beam's motion at each X (m,) [m], (m, n_dofs)."""
+        return self._frame.selected(along(chain, x, row, self._frame.dof.size))
+
+    def node_rows(self, nodes: IntArray, row: Array) -> sp.csr_array:
+        """A row (6,) over the motion of each of the nodes (m,), (m, n_dofs)."""
+        return self._frame.selected(at_nodes(nodes, row, self._frame.dof.size))
 
     @cached_property
     def nodes(self) -> Nodes:

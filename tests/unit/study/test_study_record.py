@@ -203,3 +203,51 @@ def test_without_a_file_nothing_is_compared(tmp_path):
     with pytest.raises(InputError, match="a run cannot be called 'measured'"):
         path.write_text(FILE.format(keys="").replace("[runs.one]", "[runs.measured]"))
         load_study(path)
+
+
+BRIDGE = """
+[track]
+structure = "bridge"
+spans = "2 x 8 m"
+approach_before = "12 m"
+approach_behind = "12 m"
+{track}
+[vehicle]
+type = "axle_loads"
+[journey]
+stations = ["16 m"]
+[measured]
+file = "record.csv"
+channels = ["pad = {channel}"]
+[runs.one]
+solver = "point"
+law = "moving_force"
+"""
+
+
+@pytest.mark.parametrize(
+    ("channel", "track", "message"),
+    [
+        ("deck_lateral at 16 m", "", "needs a run in space"),
+        ("pier_velocity at 20 m", "", r'needs track\.piers = "column"'),
+        ("pier_velocity at 12 m", 'piers = "column"', "needs the X of a support, 20 m"),
+        ("bearing_force at 21 m", "", "needs the X of a support, 12, 20, 28 m"),
+        ("deck_velocity at 17 m", "", r"needs 17 m among journey\.stations"),
+        ("station_strain at 16 m", 'structure = "ground"', r'needs track\.structure = "bridge"'),
+        ("bearing_force at 20 m", "", ""),
+        ("pier_lateral at 20 m", 'piers = "column"\nmotion = "space"', ""),
+    ],
+)
+def test_channels_on_bridges_need_what_they_measure(tmp_path, run, channel, track, message):
+    written(tmp_path, run)
+    path = tmp_path / "bridge.toml"
+    text = BRIDGE.format(channel=channel, track=track)
+    if "ground" in track:
+        text = text.replace('structure = "bridge"\nspans', "# spans").replace("approach", "# a")
+    path.write_text(text)
+    if not message:
+        (only,) = load_study(path).measured.parsed
+        assert only.at == 20.0
+        return
+    with pytest.raises(InputError, match=message):
+        load_study(path)

@@ -61,7 +61,7 @@ def combined(tables: Mapping[str, Any], runs: Mapping[str, Run]) -> list[str]:
             problems += _defects(irregularity, journey, vehicle.wheel_radius)
         record: MeasuredRecord | None = tables.get("measured")
         if record is not None and record.used and runs:
-            problems += record.problems_on(journey, track)
+            problems += record.problems_on(journey, track, made)
     if solid is None:
         return problems
     meshed = any(run.needs_solid for run in runs.values())

@@ -111,11 +111,14 @@ def _own(run: xr.Dataset, start: float, of: Any) -> None:
             continue
         values = np.asarray(variable.values, dtype=float)
         behind = _behind(values, x, start)
+        behind = behind[np.isfinite(behind)]  # Y/Q is not known where nothing touches
+        if not behind.size:
+            continue
         of("static")[signal] = float(values.flat[0])
         of("smallest")[signal] = float(behind.min())
         of("largest")[signal] = float(behind.max())
         parts = {k: _behind(v, x, start) for k, v in parts_of(run, signal).items()}
-        squares = {part: float(np.sqrt(np.mean(v**2))) for part, v in parts.items()}
+        squares = {part: float(np.sqrt(np.nanmean(v**2))) for part, v in parts.items()}
         of("root_mean_square")[signal] = squares
 
 

@@ -13,22 +13,18 @@ from contactstudy.arrays import Array
 from contactstudy.compare.signals import at_station
 from contactstudy.exceptions import InputError
 from contactstudy.irregularity.table import read_numbers
+from contactstudy.solvers.bridge_sensors import IN_SPACE, ON_SUPPORTS, VARIABLES
 from contactstudy.solvers.dataset import POINT_SIGNALS, SIGNALS
 from contactstudy.solvers.journey import Journey
+from contactstudy.study.kinds.passage.on_bridge import planar_on
 from contactstudy.track.model import Track
 from contactstudy.units import UnitError, to_si
 from contactstudy.validation import Above, File, Naming, Parameters, Unit, complaint, did_you_mean
+from contactstudy.vehicle import Vehicle
 
 if TYPE_CHECKING:
     import xarray as xr
 
-STATION_SIGNALS = {
-    "station_displacement": "m",
-    "deck_displacement": "m",
-    "deck_acceleration": "m/s^2",
-    "deck_strain": "1",
-}
-"""Signals at the journey's stations, on a bridge also of its decks, and their units."""
 _CHANNEL = re.compile(r"(?P<column>[^=]+?)\s*=\s*(?P<signal>\w+)(?:\s+at\s+(?P<at>.+))?")
 _FORM = 'must be like "COLUMN = SIGNAL" or "COLUMN = SIGNAL at 12.5 m"'
 _SECONDS = {"s": 1.0, "ms": 1e-3, "us": 1e-6}
@@ -36,7 +32,7 @@ _SECONDS = {"s": 1.0, "ms": 1e-3, "us": 1e-6}
 
 @dataclass(frozen=True)
 class Channel:
-    """A column of the record, and its signal: at a station X [m], or of the first wheel."""
+    """A column of the record, and its signal: at a station or support X, or of the first wheel."""
 
     column: str
     signal: str
@@ -45,7 +41,7 @@ class Channel:
     @property
     def unit(self) -> str:
         """SI unit of the signal."""
-        return STATION_SIGNALS.get(self.signal) or SIGNALS[self.signal][0]
+        return (VARIABLES.get(self.signal) or SIGNALS[self.signal])[0]
 
     @property
     def label(self) -> str:
@@ -128,22 +124,16 @@ class MeasuredRecord(Parameters):
         """The channels."""
         return tuple(_channel(text) for text in self.channels)
 
-    def problems_on(self, journey: Journey, track: Track | None) -> list[str]:
-        """Stations that a run does not have; a file that cannot be used; no common time."""
+    def problems_on(
+        self, journey: Journey, track: Track | None, vehicle: Vehicle | None = None
+    ) -> list[str]:
+        """Signals and places that a run lacks; a file that cannot be used; no common time."""
         if self._wrong_channels():
             return []  # complained about
         problems = [
-            complaint(
-                f"measured.channels.{k}", text, f"needs {channel.at:g} m among journey.stations"
-            )
+            complaint(f"measured.channels.{k}", text, why)
             for k, (text, channel) in enumerate(zip(self.channels, self.parsed, strict=True))
-            if channel.at is not None
-            and not any(abs(channel.at - x) < 1e-6 for x in journey.stations)
-        ]
-        problems += [
-            complaint(f"measured.channels.{k}", text, "needs a place on a bridge's deck")
-            for k, (text, channel) in enumerate(zip(self.channels, self.parsed, strict=True))
-            if channel.signal.startswith("deck_") and track and not _on_deck(track, channel.at)
+            if (why := _lacking(channel, journey, track, vehicle))
         ]
         try:
             record = self.read()
@@ -183,9 +173,33 @@ class MeasuredRecord(Parameters):
         return Record(time, table[:, len(named) :].T * np.array(factors)[:, None])
 
 
-def _on_deck(track: Track, x: float | None) -> bool:
-    decks = () if track.structure is None else track.structure.decks
-    return x is not None and any(ends[0] <= x <= ends[-1] for ends in decks)
+def _lacking(
+    channel: Channel, journey: Journey, track: Track | None, vehicle: Vehicle | None
+) -> str:
+    """What a run must have for a channel and has not; "" if nothing is missing."""
+    name, at = channel.signal, channel.at
+    if at is None or track is None:
+        return ""
+    bridge = track.structure
+    if bridge is None and name != "station_displacement":
+        return 'needs track.structure = "bridge"'
+    planar = bridge is None or vehicle is None or planar_on(track, vehicle)
+    if planar and name in IN_SPACE:
+        return "needs a run in space, of a vehicle with lateral data"
+    if name.startswith(ON_SUPPORTS):
+        supports = [] if bridge is None else bridge.supports.tolist()
+        places = supports[1:-1] if name.startswith("pier") else supports
+        if name.startswith("pier") and bridge is not None and bridge.piers is None:
+            return 'needs track.piers = "column"'
+        if not any(abs(at - x) < 1e-6 for x in places):
+            return f"needs the X of a support, {', '.join(f'{x:g}' for x in places)} m"
+        return ""
+    if not any(abs(at - x) < 1e-6 for x in journey.stations):
+        return f"needs {at:g} m among journey.stations"
+    decks = () if bridge is None else bridge.decks
+    if name.startswith("deck_") and not any(ends[0] <= at <= ends[-1] for ends in decks):
+        return "needs a place on a bridge's deck"
+    return ""
 
 
 def factor(unit: str, si: str) -> float:
@@ -198,11 +212,11 @@ def _channel(text: str) -> Channel:
     if match is None:
         raise UnitError(_FORM)
     signal, at = match["signal"], match["at"]
-    known = {**dict.fromkeys(POINT_SIGNALS), **STATION_SIGNALS}
+    known = {**dict.fromkeys(POINT_SIGNALS), **VARIABLES}
     if signal not in known:
         hint = did_you_mean(signal, known)
         raise UnitError(f"there is no signal {signal}{hint}; allowed: {', '.join(known)}")
-    if (signal in STATION_SIGNALS) != (at is not None):
-        needs = "needs a place" if signal in STATION_SIGNALS else "has no place"
+    if (signal in VARIABLES) != (at is not None):
+        needs = "needs a place" if signal in VARIABLES else "has no place"
         raise UnitError(f"{signal} {needs}; {_FORM}")
     return Channel(match["column"].strip(), signal, None if at is None else to_si(at, "m"))
