@@ -7,22 +7,18 @@ from typing import Any, BinaryIO
 
 import numpy as np
 import xarray as xr
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-from PIL import Image
 
 from contactstudy.arrays import Array
 from contactstudy.compare.signals import position, values
 from contactstudy.figures.patch import whole_grid
 from contactstudy.files import writing
+from contactstudy.plot.gif import write_gif
 from contactstudy.plot.style import BLACK, VERMILION, figure_style, map_axes, new_figure
 from contactstudy.plot.text import exact, label
 from contactstudy.study.results import FIGURES, StudyResults
 
-_DPI = 100
 _WIDTH, _HEIGHT = 6.0, 4.2  # inch
-_SECONDS = 10.0  # of a loop, if no frame is longer or shorter than these bounds
-_FRAMES_A_SECOND = (4.0, 20.0)
 
 
 @dataclass(frozen=True)
@@ -71,16 +67,8 @@ def frames_of(run: xr.Dataset) -> PatchFrames:
 def _animate(name: str, run: xr.Dataset, stream: BinaryIO) -> None:
     frames = frames_of(run)
     figure, parts = _draw(name, run, frames)
-    figure.set_dpi(_DPI)
-    canvas, pictures = FigureCanvasAgg(figure), list[Image.Image]()
-    for k in range(len(frames.position)):
-        _show(parts, frames, k)
-        canvas.draw()
-        pictures.append(Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB"))
-    rate = float(np.clip(len(pictures) / _SECONDS, *_FRAMES_A_SECOND))
-    first, *others = pictures
-    each = int(1000 / rate)  # ms
-    first.save(stream, "gif", save_all=True, append_images=others, duration=each, loop=0)
+    moving = [parts[name] for name in ("image", "line", "title")]
+    write_gif(figure, moving, len(frames.position), lambda k: _show(parts, frames, k), stream)
 
 
 def _draw(name: str, run: xr.Dataset, frames: PatchFrames) -> tuple[Figure, Mapping[str, Any]]:
@@ -100,9 +88,6 @@ def _draw(name: str, run: xr.Dataset, frames: PatchFrames) -> tuple[Figure, Mapp
     trace.margins(x=0)
     trace.set(xlabel="Position X of the wheel (m)", ylabel="Force (kN)")
     title = patch.set_title(f"{label(name)}: X = {exact(frames.position[0], 6)} m")
-    # the layout is found once, with the longest title, so that nothing jumps
-    figure.draw_without_rendering()
-    figure.set_layout_engine("none")
     parts = {"image": image, "line": line, "title": title, "name": label(name), "x": x}
     return figure, parts | {"force": force}
 

@@ -15,6 +15,7 @@ from contactstudy.track.deck import Antoing, Box32m, DeckSection, GivenDeck, ray
 from contactstudy.validation import (
     Above,
     AtLeast,
+    AtMost,
     Key,
     Naming,
     Parameters,
@@ -152,6 +153,11 @@ class Bridge(Parameters):
         Literal["planar", "space"] | None,
         "of the track: vertical only, both rails as one; or in space; as the vehicle if left out",
     ] = None
+    animation_frames: Annotated[
+        int, AtLeast(0), AtMost(1000),
+        "instants of the passage at which bridge and train are kept, for pictures, the animation "
+        "and ParaView; 0 for none",
+    ] = 60  # fmt: skip
     piers: Annotated[
         Pier | None,
         Variants("piers", {"rigid": None, "column": Pier}, "what inner supports stand on"),

@@ -121,17 +121,43 @@ class Train(Parameters):
         n = len(self.consist) - 1
         return list(self.gaps) if len(self.gaps) == n else [self.gaps[0]] * n
 
+    @cached_property
+    def _ends(self) -> tuple[list[float], list[float]]:
+        """X of the middle between each car's bogies, and of its front end, from the train's."""
+        middles, fronts, end = list[float](), list[float](), 0.0
+        for (car, reverse), gap in zip(self.consist, [0.0, *self._gaps], strict=False):
+            end -= gap
+            fronts.append(end)
+            offset = -car.pivot_offset if reverse else car.pivot_offset
+            middles.append(end - 0.5 * car.length + offset)
+            end -= car.length
+        return middles, fronts
+
+    @property
+    def outlines(self) -> list[tuple[float, float, float, float]]:
+        """X of each car's front end, bogies and rear end, from the leading wheelset [m]."""
+        middles, fronts = self._ends
+        first = middles[0] + max(wheelset_positions(self.leading))
+        return [
+            (
+                front - first,
+                middle + 0.5 * car.pivot_distance - first,
+                middle - 0.5 * car.pivot_distance - first,
+                front - car.length - first,
+            )
+            for (car, _), middle, front in zip(self.consist, middles, fronts, strict=True)
+        ]
+
     def vehicle(self, rails: int | None = None) -> Vehicle:
         """The whole train on one rail or two, by default as many as its model has."""
         rails = rails or (2 if self.model == "three_dimensional" else 1)
         made = {car: car_vehicle(car, self.model, rails) for car, _ in self.consist}
-        wheels, end = list[float](), 0.0  # X of the leading wheelset, and of the car's front end
-        for (car, reverse), gap in zip(self.consist, [0.0, *self._gaps], strict=False):
-            end -= gap
-            offset = -car.pivot_offset if reverse else car.pivot_offset
-            wheels.append(end - 0.5 * car.length + offset + max(wheelset_positions(car)))
-            end -= car.length
-        return train([made[car] for car, _ in self.consist], [x - wheels[0] for x in wheels])
+        cars = [car for car, _ in self.consist]
+        wheels = [
+            middle + max(wheelset_positions(car))
+            for car, middle in zip(cars, self._ends[0], strict=True)
+        ]
+        return train([made[car] for car in cars], [x - wheels[0] for x in wheels])
 
 
 @dataclass(frozen=True)

@@ -2,6 +2,7 @@
 
 from contactstudy.figures import (
     bands,
+    bridge_picture,
     deck,
     deck_damping,
     histories,
@@ -23,7 +24,8 @@ from contactstudy.plot.drawing import Drawing
 from contactstudy.study.results import StudyResults
 
 _FAMILIES = (
-    model, trust, stiffness, ladder, measured, irregularity, histories, bands, deck, deck_damping,
+    model, trust, stiffness, ladder, measured, irregularity, histories, bands, bridge_picture,
+    deck, deck_damping,
     patch, patch_status, stress, patch_history, section, press, passing,
 )  # fmt: skip
 

@@ -10,6 +10,7 @@ from contactstudy.executor import Progress, Task
 from contactstudy.solids.cache import CachedBody, cached, is_cached
 from contactstudy.solids.wheel_recipe import LARGEST_ZONE
 from contactstudy.solvers import observers
+from contactstudy.solvers.bridge_frames import BridgeFrames
 from contactstudy.solvers.car_bodies import CarBodies, bodies
 from contactstudy.solvers.observers import Observer
 from contactstudy.study.kinds.passage import build, contact
@@ -18,6 +19,7 @@ from contactstudy.study.kinds.passage.runs import PointRun, SurfaceRun
 from contactstudy.study.kinds.passage.schema import Study
 from contactstudy.study.kinds.passage.twins import untwinned
 from contactstudy.study.kinds.passage.zone import on_large_enough
+from contactstudy.vehicle import Train, Vehicle
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -58,8 +60,18 @@ def _point(study: Study, run: str, table: PointRun) -> PointCase:
         contact.point_wheel(study, run),
         table.method(),
         table.lateral_k_r,
-        (CarBodies(),) if bodies(vehicle) else (),
+        _watching(study, vehicle),
     )
+
+
+def _watching(study: Study, vehicle: Vehicle) -> tuple[Observer, ...]:
+    structure = study.track.structure
+    frames = 0 if structure is None else structure.animation_frames
+    found: tuple[Observer, ...] = (CarBodies(),) if bodies(vehicle) else ()
+    if frames:
+        outlines = study.vehicle.outlines if isinstance(study.vehicle, Train) else ()
+        found += (BridgeFrames(frames, tuple(outlines)),)
+    return found
 
 
 def _surface(study: Study, run: str, table: SurfaceRun, progress: Progress | None) -> xr.Dataset:

@@ -13,19 +13,19 @@ the pressure, see `contactstudy.halfspace.subsurface`.
 
 from __future__ import annotations
 
-import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
-from xml.sax.saxutils import quoteattr
 
 import numpy as np
 
 from contactstudy.arrays import Array
+from contactstudy.export.paraview import Piece, collection, vtu
 from contactstudy.files import write_file
 from contactstudy.halfspace.pressure_field import SurfacePressure
 from contactstudy.halfspace.subsurface import SHALLOWEST, half_space_stress
 from contactstudy.solids.stress import maximum_shear, von_mises
 from contactstudy.solvers.patch_fields import instant_pressure
+from contactstudy.study.kinds.passage.bridge_fields import write_bridge
 from contactstudy.study.kinds.passage.kind import FIELDS
 from contactstudy.study.results import StudyResults
 
@@ -39,8 +39,11 @@ _BESIDE, _DEEP, _STEP = 0.75, 3.0, 0.125
 
 
 def write_files(results: StudyResults, out_dir: Path) -> list[Path]:
-    """Fields for ParaView and the animation of the patch, of the runs that kept some."""
-    written = write_fields(results, out_dir)
+    """Fields for ParaView and animations of patch and bridge, of the runs that kept some."""
+    from contactstudy.figures.bridge_picture import write_animation
+
+    written = write_fields(results, out_dir) + write_bridge(results, out_dir)
+    written += write_animation(results, out_dir)
     if any("frame_pressure" in run.variables for run in results.runs.values()):
         from contactstudy.figures.animation import write_animations
 
@@ -63,21 +66,13 @@ def write_fields(results: StudyResults, out_dir: Path) -> list[Path]:
                 if mesh is None:
                     continue
                 target = folder / f"{name}_{part}_{k}.vtu"
-                write_file(target, _vtu(mesh))
-                entries.append((time, part, target.name))
+                write_file(target, vtu(mesh))
+                entries.append(Piece(time, _PARTS.index(part), part, target.name))
                 written.append(target)
         target = folder / f"{name}.pvd"
-        write_file(target, _collection(entries))
+        write_file(target, collection(entries))
         written.append(target)
     return written
-
-
-def _vtu(mesh: meshio.Mesh) -> bytes:
-    """A mesh as a VTU file; meshio writes that by the file's name only."""
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "mesh.vtu"
-        mesh.write(path, file_format="vtu")
-        return path.read_bytes()
 
 
 def patch_mesh(run: xr.Dataset, instant: int) -> meshio.Mesh:
@@ -151,13 +146,3 @@ def _body_lines(load: SurfacePressure) -> tuple[Array, Array, Array]:
     share = np.linspace(0.0, 1.0, 1 + int(_DEEP / (1.5 * _STEP)))
     depth = radius * (SHALLOWEST + (_DEEP - SHALLOWEST) * share**1.5)
     return lines[0], lines[1], depth
-
-
-def _collection(entries: list[tuple[float, str, str]]) -> str:
-    rows = [
-        f'    <DataSet timestep="{time!r}" part="{_PARTS.index(part)}" name={quoteattr(part)} '
-        f"file={quoteattr(file)}/>"
-        for time, part, file in entries
-    ]
-    head = ['<?xml version="1.0"?>', '<VTKFile type="Collection" version="0.1">', "  <Collection>"]
-    return "\n".join([*head, *rows, "  </Collection>", "</VTKFile>"]) + "\n"

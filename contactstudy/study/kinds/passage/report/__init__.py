@@ -30,7 +30,7 @@ _PARTS = (
     ("Contact force", ("contact_force", "third_octaves")),
     ("Motion of the wheel", ("wheel_displacement", "wheel_acceleration")),
     ("Motion of the rail", ("rail_displacement", "rail_acceleration")),
-    ("Motion of the bridge", ("deck_motion", "deck_damping")),
+    ("Motion of the bridge", ("bridge_passage", "deck_motion", "deck_damping")),
     (
         "Contact patch",
         (
