@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from contactstudy.files import write_file
-from contactstudy.given_files import file_content, is_file
+from contactstudy.given_files import changed, file_content, is_file
 from contactstudy.validation import Parameters, parameters
 
 _folder: ContextVar[Path] = ContextVar("folder")
@@ -27,7 +27,7 @@ class Carrying(pickle.Pickler):
             return NotImplemented
         named = {p.name: getattr(obj, p.name) for p in parameters(type(obj)) if p.file}
         files = {
-            name: (path.name, _content(path, path.stat().st_mtime_ns))
+            name: (path.name, _content(path, changed(path)))
             for name, value in named.items()
             if value and isinstance(value, str) and is_file(path := Path(value))
         }

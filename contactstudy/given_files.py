@@ -64,6 +64,11 @@ def file_content(path: str | Path, largest: int = LARGEST) -> bytes:
         raise InputError(f"{name}: cannot be read ({reason(error)})") from None
 
 
+def changed(path: str | Path) -> int:
+    """When a file changed last [ns], so that what was read of it is read again; 0 without one."""
+    return Path(path).stat().st_mtime_ns if is_file(path) else 0
+
+
 def file_text(path: str | Path, kind: str = "text", fallback: str = "") -> str:
     """Text of a file in UTF-8, or as its byte order mark says, with ``\\n`` at the line ends.
 

@@ -4,7 +4,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Literal
 
-from contactstudy.given_files import is_file
+from contactstudy.given_files import changed
 from contactstudy.profiles.curve import ProfileCurve, joined
 from contactstudy.profiles.orientation import Way
 from contactstudy.profiles.profile_file import SUFFIXES
@@ -69,9 +69,7 @@ def _is_file(name: str) -> bool:
 
 
 def _worn(name: str, body: Literal["rail", "wheel"], ways: Ways) -> ProfileCurve:
-    path = Path(name)
-    # a file that has changed is read again
-    return _read(path, body, ways, path.stat().st_mtime_ns if is_file(path) else 0)
+    return _read(Path(name), body, ways, changed(name))
 
 
 @lru_cache(maxsize=16)

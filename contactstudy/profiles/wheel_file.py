@@ -1,12 +1,13 @@
 """Cross-section files of wheels, like ``meshes/wheels/straight_860.toml``."""
 
 from collections.abc import Mapping
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
 from contactstudy.exceptions import InputError
 from contactstudy.files import file_digest
-from contactstudy.given_files import is_file, toml_file
+from contactstudy.given_files import changed, is_file, toml_file
 from contactstudy.profiles.wheel_body import WheelDimensions
 from contactstudy.resources import resource
 
@@ -52,6 +53,12 @@ def wheel_dimensions(section: str = DEFAULT) -> WheelDimensions:
                 "a file ending in .toml"
             )
         path = shipped[section]
+    return _read(section, path, changed(path))
+
+
+@lru_cache(maxsize=8)
+def _read(section: str, path: Path, changed: int) -> WheelDimensions:
+    """Dimensions from a file as it was `changed` last."""
     values, problems = _values(toml_file(path))
     if not problems:
         try:

@@ -58,11 +58,6 @@ class Passage(Generic[T]):
         """The vehicle as it stands on the track."""
         return turned(self.vehicle) if self.journey.travel == "backward" else self.vehicle
 
-    @property
-    def wheel_dofs(self) -> IntArray:
-        """(nw,) dofs of the system that are wheels, of a planar vehicle."""
-        return self.track.n_dofs + np.asarray(self.vehicle.wheel_dofs, dtype=np.int64)
-
     @cached_property
     def wheels(self) -> tuple[IntArray, Array]:
         """Dofs of the system and weights (nc, j) of the tread's displacement at each contact."""
@@ -71,7 +66,7 @@ class Passage(Generic[T]):
         dofs = np.argsort(rows == 0.0, axis=1, kind="stable")[:, :most]
         return self.track.n_dofs + dofs, np.take_along_axis(rows, dofs, axis=1)
 
-    @property
+    @cached_property
     def directions(self) -> tuple[Direction, ...]:
         """Direction of each contact; of a planar vehicle the track's."""
         vehicle = self.vehicle
@@ -79,7 +74,7 @@ class Passage(Generic[T]):
             return (self.track.direction,) * vehicle.n_contacts
         return tuple("Y" if one == "Y" else "Z" for one in vehicle.contact_directions)
 
-    @property
+    @cached_property
     def lateral(self) -> BoolArray:
         """(nc,) contacts beside the rail, where others are on top of it."""
         there = np.array([one == "Y" for one in self.directions])
@@ -123,19 +118,24 @@ class Passage(Generic[T]):
     @cached_property
     def roughness(self) -> Array:
         """(n_times, nc) r at each contact, faded in from its start [m]."""
-        return self.felt()
+        return self._on_track(lambda contact, x: self.faded(contact)(x))
 
     def felt(self, contact_filter: ContactFilter | None = None) -> Array:
         """(n_times, nc) what each contact feels of the faded irregularity [m]; r without a filter.
 
         Lateral contacts have no filter.
         """
+        if contact_filter is None:
+            return self.roughness
 
         def along(contact: int, x: Array) -> Array:
-            lateral = contact_filter is None or self.directions[contact] == "Y"
             level = self.faded(contact)
-            return level(x) if lateral or contact_filter is None else contact_filter(level, x)
+            return level(x) if self.directions[contact] == "Y" else contact_filter(level, x)
 
+        return self._on_track(along)
+
+    def _on_track(self, along: Callable[[int, Array], Array]) -> Array:
+        """A function of contact and way, where the contact is on the track."""
         if not isinstance(self.track, StructureTrack):
             return self._each(along)
         # none on the ground beyond the track's ends, where it need not be known

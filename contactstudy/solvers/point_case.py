@@ -158,9 +158,10 @@ def point_coupling(
 ) -> PointCoupling:
     """Join a law to all wheel positions of a passage."""
     track, x, shape = passage.track, passage.positions.ravel(), passage.positions.shape
-    felt, along = passage.felt(contact_filter), np.zeros((*shape, 0))
     if isinstance(law, PatchLaw):
         felt, along = passage.seen(law)
+    else:
+        felt, along = passage.felt(contact_filter), np.zeros((*shape, 0))
     # a spring gives back no more than it stands for
     top = np.maximum(track.top_load_compliance(x), -law.softness)
     gaps = PointGaps(

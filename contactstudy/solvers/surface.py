@@ -114,7 +114,7 @@ def surface_coupling(passage: Passage[MeshedTrack], contact: SurfaceContact) -> 
         path = WheelPath(positions[:, 0], level, lambda X: contact.level(wheel, X))
     return SurfaceCoupling(
         passage.track,
-        contact.moving(int(passage.wheel_dofs[0]), passage.n_dofs),
+        contact.moving(int(passage.wheels[0][0, 0]), passage.n_dofs),
         path,
         contact.candidates,
         contact.enforcement,

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 from rich.table import Table
@@ -21,11 +22,12 @@ from contactstudy.study.kinds.passage.on_bridge import planar_on
 from contactstudy.study.kinds.passage.roughness import irregularity_of
 from contactstudy.study.kinds.passage.runs import PointRun
 from contactstudy.study.kinds.passage.schema import Study
-from contactstudy.study.kinds.passage.twins import untwinned
+from contactstudy.study.kinds.passage.twins import run_of
 from contactstudy.track.beam import BeamTrack, RailTheory
 from contactstudy.track.model import DiscreteSupports, Slab, Track
 from contactstudy.track.structure import StructureTrack
 from contactstudy.validation import raise_if
+from contactstudy.vehicle import Vehicle
 
 _HEAD = "run", "dofs", "steps", "expected time (s)", "memory (GB)"
 # Rough costs on a core of 2020 or later, measured with the shipped studies; for a forecast only.
@@ -50,28 +52,27 @@ class Needs:
     memory: float
 
 
-def _forecast(study: Study, run: str, track: Track) -> Needs:
-    """What one run of a study on its `track` will need."""
+def _forecast(study: Study, run: str, track: Track, vehicle: Vehicle) -> Needs:
+    """What one run of a study, with its `vehicle` on its `track`, will need."""
     table = study.runs[run]
     steps = build.journey(study, run).n_steps
-    wheels = build.vehicle(study).n_dofs
     terms = study.irregularity.terms if study.irregularity.generated else 1
     seconds = START + steps * terms * TERM
     memory = PROCESS + steps * (CHANNELS + len(study.journey.stations)) * KEPT
     if isinstance(table, PointRun) and not table.needs_solid:
         theory: RailTheory = "timoshenko" if table.rail == "timoshenko" else "euler"
-        dofs = wheels
+        dofs = vehicle.n_dofs
         if track.structure is not None:
-            planar = planar_on(track, build.vehicle(study))
+            planar = planar_on(track, vehicle)
             dofs += StructureTrack(track, theory, table.elements_per_bay, planar).n_dofs_forecast
-            steps_dear = 1.0 + 0.5 * build.vehicle(study).n_contacts / 10
+            steps_dear = 1.0 + 0.5 * vehicle.n_contacts / 10
             seconds += steps * POINT_STEP * steps_dear
         else:
             beam = theory, table.elements_per_bay, table.local_compliance, table.direction
             dofs += BeamTrack(track, *beam).n_dofs_forecast
         seconds += dofs * ASSEMBLY + steps * (POINT_STEP + POINT_STEP_PER_DOF * dofs)
         return Needs(dofs, steps, seconds, memory + dofs * DOF)
-    dofs = solid_dofs(study, track) + wheels
+    dofs = solid_dofs(study, track) + vehicle.n_dofs
     seconds += steps * (SOLID_STEP + SOLID_STEP_PER_DOF * dofs)
     return Needs(dofs, steps, seconds, memory + dofs * DOF)
 
@@ -95,36 +96,37 @@ def solid_dofs(study: Study, track: Track) -> int:
 
 def size(study: Study, run: str) -> tuple[int, int, float]:
     """Dofs and steps of a run, and the seconds it takes, about, in a process that runs already."""
-    found = _forecast(study, run, build.track(study))
+    found = _forecast(study, run, build.track(study), build.vehicle(study))
     return found.dofs, found.steps, found.seconds - START
 
 
 def seconds(study: Study, name: str) -> float:
     """Time that a run, or its smooth twin, will take in a process that runs already."""
-    return size(*untwinned(study, name))[2]
+    return size(study, run_of(name))[2]
 
 
 def admit(study: Study, names: Sequence[str], reporter: Reporter) -> None:
     """Refuse runs, named as work is, that this machine's memory cannot hold."""
-    tables = dict(untwinned(study, name)[::-1] for name in names)
-    raise_if(dict.fromkeys(t for run, one in tables.items() for t in _too_large(one, run)))
+    _runs(study, dict.fromkeys(map(run_of, names)))
 
 
-def _too_large(study: Study, run: str) -> list[str]:
-    most, told = machine_memory(), []
-    own = _forecast(study, run, build.track(study)).memory
-    needed = {f"runs.{run}": own} | {
-        f"solid.mesh_size = {study.solid.mesh_size:g} m: condensing the {b.name}": _made(b).memory
-        for b in contact.bodies(study, run)
-        if not is_cached(b)
+def _runs(study: Study, runs: Iterable[str]) -> tuple[dict[str, Needs], list[Needs]]:
+    """Needs of runs, and of the bodies that the cache does not have, if the machine holds them."""
+    track, vehicle = build.track(study), build.vehicle(study)
+    own = {run: _forecast(study, run, track, vehicle) for run in runs}
+    bodies = {b.name: _made(b) for r in own for b in contact.bodies(study, r) if not is_cached(b)}
+    needed = {f"runs.{run}": need for run, need in own.items()} | {
+        f"solid.mesh_size = {study.solid.mesh_size:g} m: condensing the {name}": need
+        for name, need in bodies.items()
     }
-    for what, memory in needed.items():
-        if memory > most:
-            told.append(
-                f"{what} needs about {memory / 1e9:.3g} GB of memory; this machine has "
-                f"{most / 1e9:.3g} GB"
-            )
-    return told
+    most = machine_memory()
+    raise_if(
+        f"{what} needs about {need.memory / 1e9:.3g} GB of memory; this machine has "
+        f"{most / 1e9:.3g} GB"
+        for what, need in needed.items()
+        if need.memory > most
+    )
+    return own, list(bodies.values())
 
 
 def needs(study: Study, companions: Sequence[Any], reporter: Reporter) -> list[str | Table]:
@@ -137,24 +139,25 @@ def needs(study: Study, companions: Sequence[Any], reporter: Reporter) -> list[s
     """
     studies = [study, *(c for c in companions if isinstance(c, Study))]
     found: list[str | Table] = [_contact(study)] if study.runs else []
-    if told := deviations(study.irregularity, irregularity_of(study)):
+    rough = study.irregularity
+    if rough.generated and (told := deviations(rough, irregularity_of(study))):
         found.append(f"standard deviation of the irregularity: {told}")
-    sizes, times = Table(*_HEAD), [0.0]
+    sizes, times, made = Table(*_HEAD), [0.0], list[Needs]()
     for one in studies:
-        admit(one, tuple(one.runs), reporter)
-        for name in one.runs:
-            need = _forecast(one, name, build.track(one))
+        runs, bodies = _runs(one, one.runs)
+        made += bodies
+        for name, need in runs.items():
             label = name if one is study else f"{one.name}: {name}"
             times.append(need.seconds)
             numbers = str(need.dofs), str(need.steps), f"{need.seconds:.0f}"
             sizes.add_row(label, *numbers, f"{need.memory / 1e9:.1f}")
     if len(times) == 1:
         return [*found, "no runs: figures of the irregularity only"]
-    made = _condensation(studies)
-    seconds = max(*times, sum(times) / 2) + made.seconds
+    # rail and wheel are condensed at the same time
+    seconds = max(*times, sum(times) / 2) + max((n.seconds for n in made), default=0.0)
     told = f"about {seconds:.0f} s with two runs at a time, figures and report not counted"
-    if made.memory:
-        told += f"; condensing rail and wheel takes up to {made.memory / 1e9:.1f} GB"
+    if memory := max((n.memory for n in made), default=0.0):
+        told += f"; condensing rail and wheel takes up to {memory / 1e9:.1f} GB"
     return [*found, sizes, told]
 
 
@@ -175,27 +178,20 @@ def _contact(study: Study) -> str:
     )
 
 
-def _condensation(studies: Sequence[Study]) -> Needs:
-    """Needs of condensing what the cache does not have; rail and wheel at the same time."""
-    needed = [
-        _made(b)
-        for one in studies
-        for run in one.runs
-        for b in contact.bodies(one, run)
-        if not is_cached(b)
-    ]
-    largest = (max((getattr(n, key) for n in needed), default=0.0) for key in ("seconds", "memory"))
-    return Needs(0, 0, *largest)
-
-
 def _made(body: CachedBody[Any]) -> Needs:
-    """Needs of a body: blocks of n dofs, one a slice or plane, are factored in n^3, held in n^2."""
-    if isinstance(body.recipe, CellRecipe):
-        n, count = 3 * len(section_mesh_of(body.recipe).nodes), body.recipe.n_slices
-        return Needs(n * count, 0, 1.0 + 3e-10 * n**3 * count, 16.0 * n**2 * count)
-    if isinstance(body.recipe, WheelRecipe):
-        recipe, loaded = body.recipe, len(body.recipe.x) * len(body.recipe.y)
-        n, count = 3 * len(recipe.section().nodes), len(recipe.angles)
-        held = n**2 * count + n * loaded * len(recipe.x) + 2.0 * loaded**2
-        return Needs(n * count, 0, 1.0 + 1.1e-10 * n**3 * count, 8.0 * held)
+    """Needs of making a body, or what is made of bodies."""
+    if isinstance(body.recipe, CellRecipe | WheelRecipe):
+        return _condensed(body.recipe)
     return Needs(0, 0, MADE[body.name], 0.0)
+
+
+@lru_cache(maxsize=64)
+def _condensed(recipe: CellRecipe | WheelRecipe) -> Needs:
+    """Needs of a body: blocks of n dofs, one a slice or plane, are factored in n^3, held in n^2."""
+    if isinstance(recipe, CellRecipe):
+        n, count = 3 * len(section_mesh_of(recipe).nodes), recipe.n_slices
+        return Needs(n * count, 0, 1.0 + 3e-10 * n**3 * count, 16.0 * n**2 * count)
+    loaded = len(recipe.x) * len(recipe.y)
+    n, count = 3 * len(recipe.section().nodes), len(recipe.angles)
+    held = n**2 * count + n * loaded * len(recipe.x) + 2.0 * loaded**2
+    return Needs(n * count, 0, 1.0 + 1.1e-10 * n**3 * count, 8.0 * held)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
@@ -12,6 +13,7 @@ import numpy as np
 from contactstudy.arrays import Array
 from contactstudy.compare.signals import at_station
 from contactstudy.exceptions import InputError
+from contactstudy.given_files import changed
 from contactstudy.irregularity.table import read_numbers
 from contactstudy.solvers.bridge_sensors import IN_SPACE, ON_SUPPORTS, VARIABLES
 from contactstudy.solvers.dataset import POINT_SIGNALS, SIGNALS
@@ -157,20 +159,26 @@ class MeasuredRecord(Parameters):
         InputError
             Listing everything that is wrong with the file.
         """
-        columns = [channel.column for channel in self.parsed]
-        named = [self.time_column] if self.time_column else []
-        table, lines, problems = read_numbers(Path(self.file), [*named, *columns])
-        if len(table) < 3:
-            problems.append(f"{self.file}: {len(table)} rows of numbers; allowed: 3 or more")
-        time = np.arange(len(table)) / self.rate if self.rate else table[:, 0]
-        time = time * _SECONDS[self.time_unit]
-        if not problems and np.any(falls := np.diff(time) <= 0.0):
-            line = lines[1:][falls][0]
-            problems.append(f"{self.file}, line {line}: the time does not increase")
-        if problems:
-            raise InputError(problems)
-        factors = [factor(self.unit, channel.unit) for channel in self.parsed]
-        return Record(time, table[:, len(named) :].T * np.array(factors)[:, None])
+        return _read(self, changed(self.file))
+
+
+@lru_cache(maxsize=4)
+def _read(own: MeasuredRecord, changed: int) -> Record:
+    """The record of a file as it was `changed` last."""
+    columns = [channel.column for channel in own.parsed]
+    named = [own.time_column] if own.time_column else []
+    table, lines, problems = read_numbers(Path(own.file), [*named, *columns])
+    if len(table) < 3:
+        problems.append(f"{own.file}: {len(table)} rows of numbers; allowed: 3 or more")
+    time = np.arange(len(table)) / own.rate if own.rate else table[:, 0]
+    time = time * _SECONDS[own.time_unit]
+    if not problems and np.any(falls := np.diff(time) <= 0.0):
+        line = lines[1:][falls][0]
+        problems.append(f"{own.file}, line {line}: the time does not increase")
+    if problems:
+        raise InputError(problems)
+    factors = [factor(own.unit, channel.unit) for channel in own.parsed]
+    return Record(time, table[:, len(named) :].T * np.array(factors)[:, None])
 
 
 def _lacking(

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
-from pathlib import Path
 from typing import Annotated, Any, Literal
 
 from contactstudy.exceptions import InputError
 from contactstudy.geometry.pose import Pose
-from contactstudy.given_files import is_file
+from contactstudy.given_files import changed
 from contactstudy.profiles.curve import ProfileCurve
 from contactstudy.profiles.orientation import Way, problems_of_ways
 from contactstudy.profiles.outliers import LARGEST_RESIDUAL
@@ -113,8 +112,6 @@ class ScanFiles(Parameters):
         for body, origin in (("rail", self.rail_middle), ("wheel", self.wheel_tape)):
             file, unit = getattr(self, body), getattr(self, f"{body}_unit")
             try:
-                path = Path(file)
-                changed = path.stat().st_mtime_ns if file and is_file(path) else 0
                 scanned = (
                     file,
                     unit,
@@ -124,7 +121,7 @@ class ScanFiles(Parameters):
                     self.residual_limit,
                     self.ways(body),
                 )
-                found.append(_read(changed, *scanned) if file else None)
+                found.append(_read(changed(file), *scanned) if file else None)
             except InputError as error:
                 problems += [f"scan.{body}: {problem}" for problem in error.problems]
         raise_if(problems)

@@ -69,11 +69,16 @@ def histories(study: Study) -> list[str]:
     return found
 
 
+def run_of(name: str) -> str:
+    """The run behind a piece of work."""
+    return name.partition(".")[0]
+
+
 def untwinned(study: Study, name: str) -> tuple[Study, str]:
     """The study and run behind a piece of work; of a twin the study with that run changed."""
-    run, _, kind = name.partition(".")
-    if not kind:
-        return study, name
+    run = run_of(name)
+    if run == name:
+        return study, run
     own = study.runs[run]
     if name.endswith(_SMOOTH_TWIN):
         changed = replace(own, irregularity="smooth")
