@@ -12,6 +12,7 @@ from contactstudy.code import code_digest
 from contactstudy.exceptions import InputError
 from contactstudy.files import file_digest
 from contactstudy.store import Store
+from contactstudy.study.overrides import flat
 from contactstudy.study.plan import Plan
 from contactstudy.study.results import FIGURES, OUTPUTS, RESULT_FILE, RUNS
 
@@ -90,7 +91,7 @@ def _differences(plan: Plan) -> Iterator[str]:
     if held["kind"] != plan.kind.name:
         yield f"the study {held['name']} there is of another kind ({held['kind']})"
         return
-    there, here = _flat(held["config"]), _flat(_plain(plan.inputs.config))
+    there, here = flat(held["config"]), flat(_plain(plan.inputs.config))
     units = plan.study.units()
     same_program = held["provenance"].get("code") == code_digest()[:16]
     runs = held["config"].get("runs", {})
@@ -131,14 +132,6 @@ def _plain(config: Mapping[str, Any]) -> dict[str, Any]:
     """As it is read again."""
     read: dict[str, Any] = json.loads(json.dumps(config))
     return read
-
-
-def _flat(tables: Mapping[str, Any], path: str = "") -> dict[str, Any]:
-    found: dict[str, Any] = {}
-    for key, value in tables.items():
-        full = f"{path}.{key}" if path else key
-        found |= _flat(value, full) if isinstance(value, dict) else {full: value}
-    return found
 
 
 def _told(value: Any, unit: str) -> str:

@@ -44,6 +44,15 @@ def override(
     return problems
 
 
+def flat(tables: Mapping[str, Any], path: str = "") -> dict[str, Any]:
+    """Dotted key -> value of nested tables."""
+    found: dict[str, Any] = {}
+    for key, value in tables.items():
+        full = f"{path}.{key}" if path else key
+        found |= flat(value, full) if isinstance(value, dict) else {full: value}
+    return found
+
+
 def _leave_out(data: Any, table: Table, path: str, given: set[str]) -> None:
     """Take keys out of a table whose overridden deciding key does not let them apply."""
     for key, entry in entries(table).items() if isinstance(data, dict) else ():

@@ -8,12 +8,14 @@ from pathlib import Path
 from typing import Any
 
 from contactstudy.exceptions import InputError
+from contactstudy.plot.fonts import remark
 from contactstudy.provenance import provenance, versions
 from contactstudy.store import Kept, Store, store_key
 from contactstudy.study.axes.swept import Swept, raise_grouped, variants
 from contactstudy.study.kind import Inputs, Kind, Work, find_kind
 from contactstudy.study.results import RUNS, StudyResults
 from contactstudy.study.study import Study
+from contactstudy.texts import json_text
 
 FAILED = "failed"
 """Entry of a piece of work that failed."""
@@ -95,7 +97,7 @@ class Plan:
     @property
     def warnings(self) -> tuple[str, ...]:
         """What the user should know, each once."""
-        told = (w for p in self.all for w in (*p.inputs.warnings, *p.study.remarks))
+        told = (w for p in self.all for w in (*p.inputs.warnings, *of_texts(p.study)))
         return tuple(dict.fromkeys(told))
 
     def kept(self, piece: Piece) -> Kept:
@@ -166,6 +168,12 @@ def _read(kind: Kind, study: Study | Swept) -> Inputs:
 
 def _module(place: str) -> str:
     return place.partition(":")[0]
+
+
+def of_texts(study: Study) -> tuple[str, ...]:
+    """What the user of a study should know of its texts."""
+    told = remark(study.name, json_text([study.title, study.description, study.config()]))
+    return (told,) if told else ()
 
 
 def refined_key(kind: Kind, variant: Planned, finest: Planned) -> str:

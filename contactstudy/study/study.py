@@ -7,8 +7,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar
 
-from contactstudy.plot.fonts import remark
-from contactstudy.texts import json_text
 from contactstudy.validation import Key, Lines, Naming, Parameters, parameters
 from contactstudy.validation.base import check
 
@@ -35,12 +33,6 @@ class Study(Parameters):
         """Refuse what is no text; the title is the name if it is left out."""
         super().__post_init__()
         object.__setattr__(self, "title", self.title or self.name)
-
-    @property
-    def remarks(self) -> tuple[str, ...]:
-        """What its user should know of its texts."""
-        told = remark(self.name, json_text([self.title, self.description, self.config()]))
-        return (told,) if told else ()
 
     @abstractmethod
     def config(self) -> dict[str, Any]:

@@ -30,7 +30,8 @@ from contactstudy.study.axes.swept import Swept
 from contactstudy.study.axes.terminal import check_swept, expected_seconds, summary
 from contactstudy.study.kind import find_kind
 from contactstudy.study.loading import base_of, load_companions
-from contactstudy.study.plan import plan_study
+from contactstudy.study.overrides import flat
+from contactstudy.study.plan import Plan, plan_study
 from contactstudy.study.results import StudyResults
 from contactstudy.study.study import Study
 from contactstudy.texts import visible
@@ -142,21 +143,20 @@ def results_json(results: StudyResults, out_dir: Path) -> str:
 class Checked:
     """A study that can be run: what is worth knowing of it, and texts and tables of its needs."""
 
-    study: Study
-    warnings: tuple[str, ...]
+    plan: Plan
     needs: tuple[str | Table, ...]
 
     def print(self, console: Console) -> None:
         """Print resolved values and needs."""
-        study = self.study
+        study = self.plan.study
         console.print(Text(study.title, "bold"), f"({study.name})")
         if study.description:
             console.print(" ".join(study.description.split()))
-        for warning in self.warnings:
+        for warning in self.plan.warnings:
             console.print(visible(f"warning: {warning}"), soft_wrap=True)
         units = study.units()
         values = Table(*(Column(name, overflow="fold") for name in ("key", "value", "SI unit")))
-        for key, value in _flat(study.config()):
+        for key, value in flat(study.config()).items():
             values.add_row(key, _text(value), units.get(key, ""))
         console.print(values)
         for item in self.needs:
@@ -165,12 +165,12 @@ class Checked:
     @property
     def json(self) -> str:
         """The same as JSON; each table as a list of its rows."""
-        study = self.study
+        study = self.plan.study
         about = {name: getattr(study, name) for name in ("name", "title", "description", "kind")}
         values = {"config": study.config(), "units": study.units()}
-        seconds = expected_seconds(plan_study(study, Path()))
+        seconds = expected_seconds(self.plan)
         needs = [item if isinstance(item, str) else _rows(item) for item in self.needs]
-        told = {"warnings": self.warnings, "expected_seconds": seconds, "needs": needs}
+        told = {"warnings": self.plan.warnings, "expected_seconds": seconds, "needs": needs}
         return _json(about | values | told)
 
 
@@ -185,11 +185,13 @@ def check_study(study: Study, reporter: Reporter, quick: bool = False) -> Checke
     companions = load_companions(study, quick)
     theirs = [one for c in companions for one in load_companions(c, quick, last=True)]
     studies = [base_of(one) for one in (study, *companions, *theirs)]
-    inputs = [find_kind(one.kind).read_inputs(one) for one in studies]
-    needs = [*find_kind(study.kind).check(studies[0], studies[1:], reporter)]
+    plan = plan_study(study, Path())
+    for one in studies[1:]:
+        find_kind(one.kind).read_inputs(one)
+    needs = [*plan.kind.check(studies[0], studies[1:], reporter)]
     if isinstance(study, Swept):
-        needs = ["the study as its file has it:", *needs, *check_swept(study)]
-    return Checked(study, (*inputs[0].warnings, *study.remarks), tuple(needs))
+        needs = ["the study as its file has it:", *needs, *check_swept(study, plan)]
+    return Checked(plan, tuple(needs))
 
 
 def _json(told: Mapping[str, Any]) -> str:
@@ -200,15 +202,6 @@ def _rows(table: Table) -> list[dict[str, str]]:
     heads = [str(column.header) for column in table.columns]
     cells = zip(*(map(str, column.cells) for column in table.columns), strict=True)
     return [dict(zip(heads, row, strict=True)) for row in cells]
-
-
-def _flat(tables: Mapping[str, Any], path: str = "") -> Iterator[tuple[str, Any]]:
-    for key, value in tables.items():
-        full = f"{path}.{key}" if path else key
-        if isinstance(value, dict):
-            yield from _flat(value, full)
-        else:
-            yield full, value
 
 
 def _text(value: Any) -> str:

@@ -18,6 +18,8 @@ from contactstudy import code
 from contactstudy.files import alone, remove_unfinished, writing
 from contactstudy.solids.cache import CachedBody, cache_store, cached, entry_path
 from contactstudy.store import ARRAYS, DATASET, Store, StoreWarning, store_key
+from contactstudy.study.kind import KINDS, find_kind
+from contactstudy.verification.cases import CASES
 
 
 @dataclass(frozen=True)
@@ -255,6 +257,26 @@ def test_an_edit_changes_the_keys_of_what_it_decides(keys, file, run, body):
     path.write_text(path.read_text("utf-8") + f"{comment} edited\n", "utf-8")
     changed = [a != b for a, b in zip(before, current(), strict=True)]
     assert changed == [run, body, True]
+
+
+SHOWS = re.compile(
+    r"contactstudy\.(figures|report|commands|cli|driver|notebook|plot\.(draw|fonts|style)"
+    r"|study\.(terminal|kinds\.\w+\.(report|drawings|terminal)))\b"
+)
+
+
+def test_nothing_that_computes_imports_what_shows():
+    """So another caption, colour or option computes nothing again."""
+    kinds = [find_kind(name) for name in KINDS]
+    does = [
+        getattr(k, f"{how}ing") for k in kinds for how in ("comput", "batch", "measur", "refin")
+    ]
+    computing = {place.partition(":")[0] for place in does if place}
+    computing |= {case.function.partition(":")[0] for case in CASES} | {BODY}
+    assert RUN in computing and len(computing) > len(CASES) / 2
+    for module in computing:
+        assert not [name for name in code.modules_of(module) if SHOWS.match(name)], module
+    assert [name for name in code.modules_of("contactstudy.cli") if SHOWS.match(name)]
 
 
 def test_other_inputs_make_another_key():

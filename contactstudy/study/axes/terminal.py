@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 from rich.box import SIMPLE
 from rich.table import Table
 from rich.text import Text
@@ -12,13 +10,12 @@ from contactstudy.plot.text import counted
 from contactstudy.study.axes.dataset import FAILURE
 from contactstudy.study.axes.swept import Swept
 from contactstudy.study.axes.tables import tables
-from contactstudy.study.plan import Plan, plan_study
+from contactstudy.study.plan import Plan
 from contactstudy.study.results import StudyResults
 
 
-def check_swept(study: Swept) -> list[str]:
+def check_swept(study: Swept, plan: Plan) -> list[str]:
     """Number of variants and of runs that are computed for them, and the expected time."""
-    plan = plan_study(study, Path())
     needed = sum(len(v.pieces) for v in plan.variants.values())
     found = [
         f"{design.name}: {' x '.join(map(str, design.sizes.values()))} variants "

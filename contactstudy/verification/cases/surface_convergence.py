@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from contactstudy.study.kinds.passage.report.reference_error import DEFAULTS
+from contactstudy.study.kinds.passage.own_error import DEFAULTS
 from contactstudy.verification.cases import refined_runs
 from contactstudy.verification.cases.refinement import BAND, QUANTITIES
 from contactstudy.verification.cases.refinement_report import (

@@ -6,6 +6,7 @@ import pytest
 
 from contactstudy import cli, driver
 from contactstudy.study import earlier
+from contactstudy.study.overrides import flat
 from contactstudy.study.results import read_results
 
 SHORT = """
@@ -86,7 +87,6 @@ def test_title_and_program_may_change(run, tmp_path, monkeypatch):
     assert run()[0] == 0
     assert run(text='title = "Another"\n' + SHORT)[0] == 0
     # an older version knew another key, and not all of today's
-    flat = earlier._flat
     monkeypatch.setattr(earlier, "code_digest", lambda: "another program")
     monkeypatch.setattr(earlier, "_plain", lambda config: {**config, "new": {"key": 1}})
     assert run("--set", "journey.speed=200 km/h")[0] == 2

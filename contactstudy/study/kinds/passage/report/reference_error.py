@@ -1,33 +1,17 @@
-"""The discretisation error of surface contact itself, as far as it is known."""
+"""Whether the discretisation error of a study's surface contact is known."""
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any
 
 from contactstudy.solvers.journey import Journey
+from contactstudy.study.kinds.passage.own_error import DEFAULTS, ReferenceError
 from contactstudy.study.kinds.passage.solid import Solid
 from contactstudy.study.results import StudyResults
 
 COMMAND = "contactstudy verify convergence"
 
 
-@dataclass(frozen=True)
-class ReferenceError:
-    """What meshes, modes, penalty and time step leave in the contact force, relative L2.
-
-    Attributes
-    ----------
-    force, dynamic : float
-        Of the total force and of its dynamic part.
-    """
-
-    force: float
-    dynamic: float
-
-
-DEFAULTS = ReferenceError(force=0.0013, dynamic=0.0047)
-"""At the defaults, on the default case; `COMMAND` computes both, and holds these beside them."""
 # keys of [solid] that decide the error
 _NUMERICS = (
     "section", "mesh_size", "coarse_mesh_size", "cell_length", "interface_modes", "internal_modes",
