@@ -26,8 +26,9 @@ app = App(
     help="How wrong the simple wheel-rail contact model is: point against surface contact.",
     version=_version,
     help_epilogue=(
-        "Exit status: 0 done; 1 a run broke down, a check fails, or results differ; 2 wrong input "
-        "or nowhere to write; 130 interrupted."
+        "Exit status: 0 done; 1 a run broke down, a check fails, results differ, or there is no "
+        "room to write; 2 wrong input, or a file or folder that cannot be used; 130 interrupted; "
+        "143 terminated."
     ),
     help_format="plaintext",  # Markdown takes as long to load as all the rest
 )

@@ -13,6 +13,14 @@ from contactstudy.compiled import compiled, compiled_in_any_order
 from contactstudy.exceptions import NumericalError
 
 
+def canonical(matrix: sp.sparray) -> sp.csr_array:
+    """A matrix by rows, without zeros, columns in order."""
+    csr = sp.csr_array(matrix)
+    csr.eliminate_zeros()
+    csr.sort_indices()
+    return csr
+
+
 @dataclass(frozen=True)
 class LinearSystem:
     """M u'' + C u' + K u = f; all (n, n) and symmetric, in an ordering of narrow band."""
@@ -31,25 +39,19 @@ class LinearSystem:
         """Uncoupled parts, each with mass, damping and stiffness, one after the other."""
         return cls(
             *(
-                _csr(sp.block_diag([getattr(part, name) for part in parts]))
+                canonical(sp.block_diag([getattr(part, name) for part in parts]))
                 for name in ("mass", "damping", "stiffness")
             )
         )
 
     def combine(self, a_mass: float, a_damping: float, a_stiffness: float) -> sp.csr_array:
         """a_mass M + a_damping C + a_stiffness K."""
-        return _csr(a_mass * self.mass + a_damping * self.damping + a_stiffness * self.stiffness)
+        M, C, K = self.mass, self.damping, self.stiffness
+        return canonical(a_mass * M + a_damping * C + a_stiffness * K)
 
 
 BLOCK = 8
 """Rows that are eliminated together; the kernels are written out for this number."""
-
-
-def _csr(matrix: sp.sparray) -> sp.csr_array:
-    csr = sp.csr_array(matrix)
-    csr.eliminate_zeros()
-    csr.sort_indices()
-    return csr
 
 
 class Factor:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import io
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 
 from contactstudy.exceptions import InputError
 from contactstudy.figures.signals import SIGNALS
-from contactstudy.files import writing
+from contactstudy.files import write_file, writing
 from contactstudy.plot.style import PNG_DPI, figure_legend, figure_style, new_figure, run_styles
 from contactstudy.study.results import StudyResults
 from contactstudy.validation import did_you_mean
@@ -135,10 +135,7 @@ def within(found: Sequence[Trace], low: float, high: float) -> list[Trace]:
     for t in found:
         inside = (t.x >= low) & (t.x <= high)
         if inside.any():
-            shorter = t.x[inside], t.values[inside]
-            cut.append(
-                Trace(t.run, t.signal, t.labels, *shorter, t.attrs, t.abscissa, t.abscissa_unit)
-            )
+            cut.append(replace(t, x=t.x[inside], values=t.values[inside]))
     if not cut:
         spans = [(float(t.x.min()), float(t.x.max()), t.abscissa_unit) for t in found]
         first = min(s[0] for s in spans)
@@ -158,8 +155,7 @@ def write_traces(found: Sequence[Trace], reference: str | None, path: Path) -> N
         For another ending.
     """
     if path.suffix == ".csv":
-        with writing(path) as unfinished:
-            unfinished.write(_table(found).encode("utf-8"))
+        write_file(path, _table(found))
         return
     if path.suffix[1:] not in _UNDATED:
         raise InputError(f"--out {path}: must end in .csv, .pdf, .png or .svg")

@@ -20,8 +20,8 @@ _ROUND = 0.8  # height over length above which a wheel is seen all round
 
 def wrong_axes(
     points: Array, faces: IntArray, body: Body, ways: Sequence[Way], tape: float = 0.0
-) -> tuple[list[str], str]:
-    """Axes that are not as stated, and what was found.
+) -> list[str]:
+    """Axes that are not as stated.
 
     Vertices (n, 3) in this program's axes by what was stated [m]; the winding of the faces (m, 3)
     does not matter. `tape` is Y of a wheel's tape circle [m].
@@ -38,14 +38,12 @@ def wrong_axes(
             return [
                 f'{name} is the axis {what}; state {body}_{name} = "{way}", or the other way, and '
                 "where the others point"
-            ], ""
+            ]
     facing = np.abs(normals[:, 2]) > _SIDE
-    if not facing.any():
-        return [], ""
-    if body == "rail" and not _open(area):
-        return [], ""  # its top and underside are one cloud
+    if not facing.any() or (body == "rail" and not _open(area)):
+        return []  # a closed rail's top and underside are one cloud
     seen = _rail(centres[facing]) if body == "rail" else _wheel(centres[facing], tape)
-    return seen.faults(body, ways), seen.told
+    return seen.faults(body, ways)
 
 
 def _along(normals: Array, size: Array) -> int:

@@ -69,7 +69,7 @@ def read_mesh(
     if problems:
         raise InputError(problems)
     points = np.asarray(mesh.vertices)
-    if wrong := wrong_axes(points, np.asarray(mesh.faces), body, ways, tape)[0]:
+    if wrong := wrong_axes(points, np.asarray(mesh.faces), body, ways, tape):
         raise InputError(f"{file}: does not look like a {body}: {fault}" for fault in wrong)
     problems = [f"{file}: {fault}" for fault in faults(mesh, body, UNITS[unit], unit)]
     if problems:

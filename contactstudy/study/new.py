@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from contactstudy.exceptions import InputError
-from contactstudy.files import writing
+from contactstudy.files import write_file
 from contactstudy.given_files import toml_file
 from contactstudy.study.keys import allowed, shown
 from contactstudy.study.kind import Kind, kind_of_file
@@ -39,9 +39,7 @@ def write_new(path: Path, study: str) -> None:
         raise InputError(f"{path}: is there already; give the name of a new file")
     if path.suffix != ".toml":
         raise InputError(f'{path}: a study file ends in ".toml"')
-    text = new_study(study)
-    with writing(path) as unfinished:
-        unfinished.write(text.encode("utf-8"))
+    write_file(path, new_study(study))
 
 
 def new_study(study: str) -> str:

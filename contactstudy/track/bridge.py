@@ -22,8 +22,8 @@ from contactstudy.validation import (
     Unit,
     Variants,
     Written,
-    as_list,
     complaint,
+    listed,
 )
 from contactstudy.validation import quantities as q
 
@@ -35,15 +35,10 @@ _REPEATED = re.compile(r"\s*(\d{1,4})\s*x\s*(.+)")
 def _spans(value: Any, unit: str) -> Any:
     """Lengths of spans from "10 x 32 m", or from a list of such texts and lengths."""
     found = list[Any]()
-    given = as_list(value)
-    for one in [value] if given is None else given:
+    for one in listed(value):
         match = _REPEATED.fullmatch(one) if isinstance(one, str) else None
         found += [match[2]] * int(match[1]) if match else [one]
     return found
-
-
-def _listed(value: Any, unit: str) -> Any:
-    return [value] if as_list(value) is None else value
 
 
 @dataclass(frozen=True)
@@ -114,7 +109,7 @@ class Bridge(Parameters):
         "lengths of all spans",
     ] = (32.0,) * 10  # fmt: skip
     spans_per_deck: Annotated[
-        tuple[int, ...], AtLeast(1), Written(_listed),
+        tuple[int, ...], AtLeast(1), Written(listed),
         "of each deck how many spans it runs over; one number for all, 1 is simply supported",
     ] = (1,)  # fmt: skip
     deck: Annotated[

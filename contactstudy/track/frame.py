@@ -13,6 +13,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from contactstudy.arrays import Array, IntArray
+from contactstudy.dynamics.banded import canonical
 from contactstudy.track.space_beam import N_DOFS, SpaceBeam, along_z
 
 HELD = -1
@@ -104,7 +105,7 @@ class Frame:
 
     def selected(self, rows: sp.csr_array) -> sp.csr_array:
         """Rows over all nodes' dofs as rows over the final dofs."""
-        return _clean(rows @ self._selection)
+        return canonical(rows @ self._selection)
 
     @cached_property
     def matrices(self) -> tuple[sp.csr_array, sp.csr_array, sp.csr_array]:
@@ -127,14 +128,7 @@ class Frame:
             C = C + G.T @ sp.diags_array(spring.damping) @ G
             K = K + G.T @ sp.diags_array(spring.stiffness) @ G
         T = self._selection
-        return _clean(T.T @ M @ T), _clean(T.T @ C @ T), _clean(T.T @ K @ T)
-
-
-def _clean(matrix: sp.sparray) -> sp.csr_array:
-    csr = sp.csr_array(matrix)
-    csr.eliminate_zeros()
-    csr.sort_indices()
-    return csr
+        return canonical(T.T @ M @ T), canonical(T.T @ C @ T), canonical(T.T @ K @ T)
 
 
 def numbered(x: Array, rank: IntArray, kept: Array, alike: IntArray) -> IntArray:

@@ -32,7 +32,6 @@ class Nodes:
         Nodes of the piers of inner supports; empty where supports are rigid.
     """
 
-    track: Track
     bridge: Bridge
     support: DiscreteSupports
     stretches: tuple[Stretch, ...]
@@ -152,7 +151,6 @@ def nodes_of(track: Track, theory: str, per_bay: int) -> Nodes:
             nodes = np.r_[add(np.array([at]), 4), add(np.array([at]), 5)]
             piers.append(Chain(nodes, np.array([0.0, pier.height]), column, upright=True))
     return Nodes(
-        track,
         bridge,
         support,
         parts,

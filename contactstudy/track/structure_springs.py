@@ -138,9 +138,6 @@ class Bearings:
     tension. `x` (m,) of the supports [m].
     """
 
-    deck: int
-    axis: Axis
-    side: float
     x: Array
     springs: Springs
 
@@ -163,7 +160,7 @@ def bearings(nodes: Nodes, axes: tuple[Axis, ...]) -> Iterator[Bearings]:
                 rows = at_nodes(deck, row, size)
                 rows = rows - at_nodes(tops, displacement(axis, (0.0, side, 0.0)), size)
                 springs = Springs(rows, np.full(len(x), k), np.full(len(x), c))
-                yield Bearings(number, axis, side, x, springs)
+                yield Bearings(x, springs)
 
 
 def _foundations(nodes: Nodes) -> Iterator[Springs]:

@@ -13,6 +13,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from contactstudy.arrays import Array, IntArray
+from contactstudy.dynamics.banded import canonical
 from contactstudy.track.hermite import BeamElement
 from contactstudy.track.model import Direction, DiscreteSupports, Slab, Track
 
@@ -86,10 +87,7 @@ def add_supports(
     def ordered(total: sp.csr_array) -> sp.csr_array:
         coo = sp.coo_array(total)
         rows, columns = coo.coords
-        result = sp.csr_array((coo.data, (place[rows], place[columns])), shape=(n, n))
-        result.eliminate_zeros()
-        result.sort_indices()
-        return result
+        return canonical(sp.csr_array((coo.data, (place[rows], place[columns])), shape=(n, n)))
 
     M, C, K = (ordered(total) for total in totals)
     return SupportedRail(mass=M, damping=C, stiffness=K, rail_dofs=place[:n_rail])

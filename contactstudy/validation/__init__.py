@@ -8,7 +8,7 @@ units that are printed (`resolved`, `units`), and the list of all keys (`entries
 
 from contactstudy.validation.base import Naming, Parameters
 from contactstudy.validation.checks import not_negative, positive, raise_if
-from contactstudy.validation.definition import Parameter, as_list, parameter, parameters
+from contactstudy.validation.definition import Parameter, as_list, listed, parameter, parameters
 from contactstudy.validation.messages import any_of, complaint, did_you_mean, unknown
 from contactstudy.validation.metadata import (
     Above,
@@ -66,6 +66,7 @@ __all__ = [
     "did_you_mean",
     "entries",
     "is_multiple",
+    "listed",
     "multiple",
     "not_negative",
     "parameter",

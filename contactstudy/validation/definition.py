@@ -156,6 +156,12 @@ def as_list(value: Any) -> list[Any] | None:
     return list(value) if listed and not isinstance(value, memoryview) else None
 
 
+def listed(value: Any, unit: str = "") -> list[Any]:
+    """Items of a list, as `as_list`, or of anything else that itself; as `Written` wants it."""
+    items = as_list(value)
+    return [value] if items is None else items
+
+
 def _parameters(owner: type) -> tuple[Parameter, ...]:
     hints = get_type_hints(owner, include_extras=True)
     return tuple(

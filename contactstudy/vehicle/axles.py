@@ -1,5 +1,6 @@
 """Trains by their axle loads alone: any axles, load model HSLM-A, freight wagons."""
 
+from abc import ABC, abstractmethod
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Annotated, Literal
@@ -31,16 +32,16 @@ _TO_COACH = 3.525  # m, last axle of the power car to the first of the coach
 
 
 @dataclass(frozen=True)
-class Axles(Parameters):
+class Axles(Parameters, ABC):
     """Loads of axles, half of each on a rail; with a law that moves, on bare wheels."""
 
     wheel_mass: Annotated[float, Same(BareWheel, "wheel_mass")] = BareWheel.wheel_mass
     wheel_radius: Annotated[float, Same(BareWheel, "wheel_radius")] = BareWheel.wheel_radius
 
     @property
+    @abstractmethod
     def axles(self) -> tuple[Sequence[float], Sequence[float]]:
         """Distances of the axles behind the first [m], and their loads [N]."""
-        raise NotImplementedError
 
     @property
     def static_load(self) -> float:

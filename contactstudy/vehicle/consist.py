@@ -1,13 +1,14 @@
 """Trains of cars, and single bogies, by the names or files of their cars."""
 
 import re
+from abc import ABC, abstractmethod
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Annotated, Any
 
 from contactstudy.exceptions import InputError
-from contactstudy.validation import File, Naming, Parameters, Unit, Written, as_list, complaint
+from contactstudy.validation import File, Naming, Parameters, Unit, Written, complaint, listed
 from contactstudy.vehicle.car import Car
 from contactstudy.vehicle.model import Vehicle, train
 from contactstudy.vehicle.suspended import CarModel, bogie_vehicle, car_vehicle, wheelset_positions
@@ -17,12 +18,42 @@ _ENTRY = re.compile(r"(?:(?P<count>[1-9][0-9]{0,2}) x )?(?P<file>.+?)(?P<reverse
 _TOLERANCE = 1e-9  # m, of ends that touch
 
 
-def _listed(value: Any, unit: str) -> Any:
-    return value if as_list(value) is not None else [value]
+class _OfCars(Parameters, ABC):
+    """What wheels over one rail are, by the leading car."""
+
+    @property
+    @abstractmethod
+    def cars_read(self) -> tuple[Car, ...]:
+        """Each car, front to rear."""
+
+    @property
+    def leading(self) -> Car:
+        """The first car."""
+        return self.cars_read[0]
+
+    @property
+    def data(self) -> list[Any]:
+        """What the files of the cars say, as plain data."""
+        return [car.resolved() for car in dict.fromkeys(self.cars_read)]
+
+    @property
+    def static_load(self) -> float:
+        """Of a wheel of the first car [N]."""
+        return 0.5 * self.leading.static_axle_load
+
+    @property
+    def wheel_radius(self) -> float:
+        """Of the first car [m]."""
+        return self.leading.wheel_radius
+
+    @property
+    def wheel_mass(self) -> float:
+        """Half of a wheelset of the first car [kg]."""
+        return 0.5 * self.leading.wheelset_mass
 
 
 @dataclass(frozen=True)
-class Train(Parameters):
+class Train(_OfCars):
     """Cars behind each other, front to rear; they are coupled by the track only.
 
     Each is a shipped car or a file like those of ``vehicles/``, perhaps several, perhaps the other
@@ -38,7 +69,7 @@ class Train(Parameters):
         "planar"
     )
     gaps: Annotated[
-        tuple[float, ...], Unit("m"), Written(_listed, "a list of them"),
+        tuple[float, ...], Unit("m"), Written(listed, "a list of them"),
         "between the ends of neighbouring cars, one for all or one each; lengths are over couplers",
     ] = (0.0,)  # fmt: skip
 
@@ -78,9 +109,9 @@ class Train(Parameters):
         return tuple(one for text in self.cars for one in _read(text)[1])
 
     @property
-    def data(self) -> list[Any]:
-        """What the files of the cars say, as plain data."""
-        return [car.resolved() for car in dict.fromkeys(car for car, _ in self.consist)]
+    def cars_read(self) -> tuple[Car, ...]:
+        """See `_OfCars.cars_read`."""
+        return tuple(car for car, _ in self.consist)
 
     @property
     def length(self) -> float:
@@ -95,26 +126,6 @@ class Train(Parameters):
             return None
         pitches = [length + gap for length, gap in zip(lengths, self._gaps, strict=False)]
         return max(pitches, key=pitches.count)
-
-    @property
-    def leading(self) -> Car:
-        """The first car."""
-        return self.consist[0][0]
-
-    @property
-    def static_load(self) -> float:
-        """Of a wheel of the first car [N]."""
-        return 0.5 * self.leading.static_axle_load
-
-    @property
-    def wheel_radius(self) -> float:
-        """Of the first car [m]."""
-        return self.leading.wheel_radius
-
-    @property
-    def wheel_mass(self) -> float:
-        """Half of a wheelset of the first car [kg]."""
-        return 0.5 * self.leading.wheelset_mass
 
     @property
     def _gaps(self) -> list[float]:
@@ -161,7 +172,7 @@ class Train(Parameters):
 
 
 @dataclass(frozen=True)
-class Bogie(Parameters):
+class Bogie(_OfCars):
     """One bogie of a car over one rail, with its half of the car body on top."""
 
     car: Annotated[str, File(True), "shipped car, or a TOML file with one"] = "s300"
@@ -174,33 +185,13 @@ class Bogie(Parameters):
             yield from (f"{key('car')}: {problem}" for problem in error.problems)
 
     @cached_property
-    def read(self) -> Car:
-        """The car."""
-        return read_car(self.car)
-
-    @property
-    def data(self) -> list[Any]:
-        """What the file of the car says, as plain data."""
-        return [self.read.resolved()]
-
-    @property
-    def static_load(self) -> float:
-        """Of a wheel [N]."""
-        return 0.5 * self.read.static_axle_load
-
-    @property
-    def wheel_radius(self) -> float:
-        """Of the car [m]."""
-        return self.read.wheel_radius
-
-    @property
-    def wheel_mass(self) -> float:
-        """Half of a wheelset [kg]."""
-        return 0.5 * self.read.wheelset_mass
+    def cars_read(self) -> tuple[Car, ...]:
+        """See `_OfCars.cars_read`."""
+        return (read_car(self.car),)
 
     def vehicle(self) -> Vehicle:
         """Dofs car body z, bogie z and pitch, two wheelsets z."""
-        return bogie_vehicle(self.read)
+        return bogie_vehicle(self.leading)
 
 
 def car_file(text: str) -> str:

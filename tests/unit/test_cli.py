@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
+from short_study import HERTZ, POINT
 
 from contactstudy import cli, driver
 from contactstudy.figures.irregularity import irregularity_of
@@ -26,23 +27,7 @@ from contactstudy.study.kinds.passage.roughness import describe
 from contactstudy.study.loading import load_study
 from contactstudy.study.results import read_results
 
-SHORT = """
-title = "A short one"
-[track]
-length = "6 m"
-[irregularity]
-terms = 50
-[journey]
-from = "1.2 m"
-to = "3 m"
-time_step = "0.2 ms"
-fade_in = "0.6 m"
-[runs.point]
-solver = "point"
-[runs.hertz]
-solver = "point"
-law = "hertz"
-"""
+SHORT = 'title = "A short one"' + POINT + HERTZ
 
 
 def render(results, out_dir, reporter):

@@ -12,22 +12,9 @@ from typing import Any
 
 import numpy as np
 import pytest
+from short_study import HERTZ, POINT
 
-STUDY = """
-[track]
-length = "6 m"
-[irregularity]
-terms = 50
-[journey]
-from = "1.2 m"
-to = "3 m"
-time_step = "0.02 ms"
-fade_in = "0.6 m"
-[runs.point]
-solver = "point"
-[runs.hertz]
-solver = "point"
-law = "hertz"
+STUDY = f"""{POINT.replace("0.2 ms", "0.02 ms")}{HERTZ}
 [runs.timoshenko]
 solver = "point"
 rail = "timoshenko"

@@ -5,30 +5,15 @@ import shutil
 import subprocess
 
 import pytest
+from short_study import HERTZ, POINT
 
 from contactstudy import cli, driver
 from contactstudy.reporter import Quiet
 from contactstudy.study.loading import load_study
 from contactstudy.study.terminal import check_study
 
-SHORT = """
-title = "A short one"
-[track]
-length = "6 m"
-[irregularity]
-terms = 50
-[journey]
-from = "1.2 m"
-to = "2.4 m"
-time_step = "0.2 ms"
-fade_in = "0.6 m"
-[runs.point]
-solver = "point"
-k_r = "1 GN/m"
-[runs.hertz]
-solver = "point"
-law = "hertz"
-"""
+POINT_RUN = POINT.replace('to = "3 m"', 'to = "2.4 m"') + 'k_r = "1 GN/m"\n'
+SHORT = 'title = "A short one"' + POINT_RUN + HERTZ
 
 
 @pytest.fixture

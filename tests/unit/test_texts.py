@@ -14,6 +14,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from rich.console import Console
 from rich.table import Table
+from short_study import POINT as SHORT
 
 from contactstudy import cli
 from contactstudy.exceptions import InputError
@@ -34,19 +35,6 @@ NASTY = (
 )  # fmt: skip
 WORDS = st.lists(st.sampled_from(NASTY), min_size=1, max_size=5).map(" ".join)
 ANY = st.text(st.characters(exclude_categories=("Cc", "Cs")), min_size=1, max_size=40)
-SHORT = """
-[track]
-length = "6 m"
-[irregularity]
-terms = 50
-[journey]
-from = "1.2 m"
-to = "3 m"
-time_step = "0.2 ms"
-fade_in = "0.6 m"
-[runs.point]
-solver = "point"
-"""
 
 
 @given(st.text())

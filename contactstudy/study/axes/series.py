@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from contactstudy.units import Limits, UnitError, to_si
-from contactstudy.validation import Parameter, as_list, is_multiple, multiple
+from contactstudy.validation import Parameter, as_list, is_multiple, listed, multiple
 from contactstudy.validation.metadata import NUMBER
 
 MOST = 20_000
@@ -56,8 +56,7 @@ def series(given: Any, parameter: Parameter, distinct: bool = True) -> Series:
     if isinstance(given, str) and not parameter.only_text:
         made = _range(given, parameter)
         given = [given] if made is None else made
-    listed = as_list(given)
-    values = (given,) if listed is None else listed
+    values = listed(given)
     if not values:
         raise UnitError("must hold at least one value")
     if len(values) > MOST:

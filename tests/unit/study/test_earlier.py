@@ -3,25 +3,13 @@
 import json
 
 import pytest
+from short_study import HERTZ
+from short_study import POINT as SHORT
 
 from contactstudy import cli, driver
 from contactstudy.study import earlier
 from contactstudy.study.overrides import flat
 from contactstudy.study.results import read_results
-
-SHORT = """
-[track]
-length = "6 m"
-[irregularity]
-terms = 50
-[journey]
-from = "1.2 m"
-to = "3 m"
-time_step = "0.2 ms"
-fade_in = "0.6 m"
-[runs.point]
-solver = "point"
-"""
 
 
 def render(results, out_dir, reporter):
@@ -72,7 +60,7 @@ def test_other_results_are_not_written_over(run, tmp_path, options, told):
 
 
 def test_more_runs_hold_the_earlier_ones_too(run, tmp_path):
-    more = SHORT + '[runs.hertz]\nsolver = "point"\nlaw = "hertz"\n'
+    more = SHORT + HERTZ
     assert run()[0] == 0 and run(text=more)[0] == 0
     assert (tmp_path / "out" / "figures" / "hertz.pdf").exists()
     assert "runs.hertz.solver is set only there" in run()[1]

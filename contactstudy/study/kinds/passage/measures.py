@@ -21,11 +21,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from contactstudy.arrays import Array
 from contactstudy.compare.signals import position, same_way
 from contactstudy.study.axes.measured import Measured, measured
 from contactstudy.study.kinds.passage.impacts import closed_forms, impacts
-from contactstudy.study.kinds.passage.metrics import compare_runs, parts_of
+from contactstudy.study.kinds.passage.metrics import behind, compare_runs, parts_of
 from contactstudy.study.kinds.passage.schema import Study
 from contactstudy.study.kinds.passage.twins import SMOOTH, SOFTER, with_twins
 
@@ -110,23 +109,18 @@ def _own(run: xr.Dataset, start: float, of: Any) -> None:
         if variable.dims[-1:] != ("time",) or other or twin:
             continue
         values = np.asarray(variable.values, dtype=float)
-        behind = _behind(values, x, start)
-        behind = behind[np.isfinite(behind)]  # Y/Q is not known where nothing touches
-        if not behind.size:
+        kept = behind(values, x, start)
+        kept = kept[np.isfinite(kept)]  # Y/Q is not known where nothing touches
+        if not kept.size:
             continue
         of("static")[signal] = float(values.flat[0])
-        of("smallest")[signal] = float(behind.min())
-        of("largest")[signal] = float(behind.max())
-        parts = {k: _behind(v, x, start) for k, v in parts_of(run, signal).items()}
+        of("smallest")[signal] = float(kept.min())
+        of("largest")[signal] = float(kept.max())
+        parts = {k: behind(v, x, start) for k, v in parts_of(run, signal).items()}
         squares = {part: float(np.sqrt(np.nanmean(v**2))) for part, v in parts.items()}
         of("root_mean_square")[signal] = squares
 
 
 def _lost(run: xr.Dataset, start: float) -> float:
-    force = _behind(np.asarray(run["contact_force"].values), position(run), start)
+    force = behind(np.asarray(run["contact_force"].values), position(run), start)
     return float(np.mean(force <= 0.0))
-
-
-def _behind(values: Array, x: Array, start: float) -> Array:
-    """The samples behind the fade-in."""
-    return np.asarray(values[..., x >= start - 1e-9 * max(abs(start), 1.0)])

@@ -124,10 +124,15 @@ def dynamic_part(run: xr.Dataset, start: float) -> dict[str, Any]:
     """How large a run's contact force is about its static value, from `start` [m] on."""
     force, x = np.asarray(run["contact_force"].values, dtype=float), position(run)
     static = at_rest(run, "contact_force")
-    dynamic = norms.dynamic_part(force, static)[..., x >= start - 1e-9 * max(abs(start), 1.0)]
+    dynamic = behind(norms.dynamic_part(force, static), x, start)
     rms = float(np.sqrt(np.mean(dynamic**2)))
     of_static = rms / float(np.mean(np.abs(static)) or 1.0)
     return {"rms": rms, "of_static": of_static, "compared": of_static >= LEAST_DYNAMIC}
+
+
+def behind(values: Array, x: Array, start: float) -> Array:
+    """The samples (..., n) at positions (n,) behind the fade-in, which ends at `start` [m]."""
+    return np.asarray(values[..., x >= start - 1e-9 * max(abs(start), 1.0)])
 
 
 def _without_dynamic(entry: Mapping[str, Any]) -> dict[str, Any]:

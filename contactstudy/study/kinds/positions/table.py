@@ -33,7 +33,7 @@ from contactstudy.validation import (
     Same,
     Unit,
     Written,
-    as_list,
+    listed,
     raise_if,
     read,
     resolve_paths,
@@ -53,10 +53,7 @@ def _series(value: Any, unit: str) -> Any:
     if isinstance(value, str) and (match := _RANGE.fullmatch(value.strip())):
         first, last, step = (to_si(part, unit) for part in match.groups())
         return [float(f"{x:.12g}") for x in by_step(first, last, step, _MOST)]
-    given = as_list(value)
-    if given is None:
-        return [value]
-    if not given:
+    if not (given := listed(value)):
         raise UnitError("must hold at least one value")
     return given
 

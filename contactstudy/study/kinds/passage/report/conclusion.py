@@ -1,7 +1,8 @@
 """The conclusion: which point model to use, what error to expect, and how sure that is."""
 
+import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from contactstudy.plot.text import exact, label, listing, number
@@ -89,12 +90,12 @@ def compared(results: StudyResults) -> list[Compared]:
 
 def ranked(found: list[Compared], own: ReferenceError | None) -> list[Compared]:
     """With places: who is within the reference's own error of the best at a place shares it."""
-    made: list[Compared] = []
-    for k, one in enumerate(found):
-        first = next((o for o in made if o.rank == made[-1].rank), None)
-        apart = first is None or one.dynamic - first.dynamic > (own.dynamic if own else 0.0)
-        rank = k + 1 if apart or first is None else first.rank
-        made.append(Compared(**{**vars(one), "rank": rank}))
+    made = list[Compared]()
+    best, rank = -math.inf, 0  # error and place of the first who has the place at hand
+    for place, one in enumerate(found, 1):
+        if one.dynamic - best > (own.dynamic if own else 0.0):
+            best, rank = one.dynamic, place
+        made.append(replace(one, rank=rank))
     return made
 
 
