@@ -1,6 +1,7 @@
 """The one place where files that a user names are opened."""
 
 import codecs
+import hashlib
 import stat
 import tomllib
 from collections.abc import Iterable
@@ -62,6 +63,11 @@ def file_content(path: str | Path, largest: int = LARGEST) -> bytes:
     except OSError as error:
         name = str(file) if len(str(file)) < 300 else f"{str(file)[:100]}..."
         raise InputError(f"{name}: cannot be read ({reason(error)})") from None
+
+
+def content_digest(path: str | Path) -> str:
+    """Hexadecimal SHA-256 of a regular file's content; `InputError` as `file_content`."""
+    return hashlib.sha256(file_content(path)).hexdigest()
 
 
 def changed(path: str | Path) -> int:

@@ -6,8 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from contactstudy.exceptions import InputError
-from contactstudy.files import file_digest
-from contactstudy.given_files import changed, is_file, toml_file
+from contactstudy.given_files import changed, content_digest, is_file, toml_file
 from contactstudy.profiles.wheel_body import WheelDimensions
 from contactstudy.resources import resource
 
@@ -75,8 +74,7 @@ def wheel_sections() -> dict[str, Path]:
 
 def named_file_digest(path: str) -> str:
     """SHA-256 of a file's content; "" if there is no such file (a shipped name)."""
-    file = Path(path)
-    return file_digest(file) if is_file(file) else ""
+    return content_digest(path) if is_file(path) else ""
 
 
 def _values(data: Mapping[str, Any]) -> tuple[dict[str, Any], list[str]]:

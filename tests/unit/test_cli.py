@@ -3,6 +3,7 @@
 import importlib
 import json
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -22,10 +23,12 @@ from contactstudy.solids.bodies import rail_body
 from contactstudy.solids.cache import cache_store, entry_path
 from contactstudy.store import DATASET, Store
 from contactstudy.study import compute
+from contactstudy.study.kind import find_kind
 from contactstudy.study.kinds.passage import build
 from contactstudy.study.kinds.passage.roughness import describe
 from contactstudy.study.loading import load_study
 from contactstudy.study.results import read_results
+from contactstudy.validation import entries
 
 SHORT = 'title = "A short one"' + POINT + HERTZ
 
@@ -52,6 +55,25 @@ def refused(capfd, *arguments: str | Path) -> str:
     err = capfd.readouterr().err
     assert err.startswith("contactstudy: ") and "Traceback" not in err
     return err
+
+
+FILES = {
+    f"{name}.{key}"
+    for name, table in find_kind("passage").tables.items()
+    for key, entry in entries(table).items()
+    if entry.parameter.file
+}
+
+
+@pytest.mark.parametrize("key", sorted(FILES))
+def test_a_file_that_is_not_there_is_refused_whatever_key_names_it(short, capfd, key):
+    assert len(FILES) > 9
+    more = {"vehicle.cars": ["vehicle.type=train"], "vehicle.car": ["vehicle.type=bogie"]}
+    more |= {"irregularity.file": ["irregularity.spectrum=measured"]}
+    if key.startswith(("solid.", "wheelset.")):
+        more[key] = ["runs.point.k_r=tangent", "solid.section=whole"]
+    options = [f"--set={one}" for one in (f"{key}=nowhere.csv", *more.get(key, ()))]
+    assert re.search("nowhere|missing|only with", refused(capfd, "check", short, *options))
 
 
 def test_studies_lists_names_and_titles(capsys):

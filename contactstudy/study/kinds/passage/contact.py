@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -20,7 +19,7 @@ from contactstudy.contact.laws import (
 from contactstudy.contact.patch_laws import FollowingPatch, PatchLaw, WinklerBedding
 from contactstudy.contact.point_wheel import PointWheel
 from contactstudy.contact.press_table import PressTable
-from contactstudy.files import file_digest
+from contactstudy.given_files import content_digest
 from contactstudy.halfspace.hertz import HertzContact, contact_modulus, hertz_contact
 from contactstudy.profiles.wheel_file import named_file_digest
 from contactstudy.solids.bodies import modes_body, rail_body, wheel_body
@@ -99,7 +98,7 @@ def _plain(study: Study, run: str) -> list[Any]:
             {k: v for k, v in study.wheelset.resolved().items() if k not in WHEELSET_PATHS},
             [named_file_digest(name) or name for name in files],
             {k: v for k, v in study.scan.resolved().items() if k not in SCAN_PATHS},
-            [file_digest(Path(name)) if name else "" for name in scans],
+            [content_digest(name) if name else "" for name in scans],
         )
     )
     return [

@@ -7,7 +7,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from contactstudy.files import file_digest
+from contactstudy.given_files import content_digest
 from contactstudy.irregularity.shown import to_dataset
 from contactstudy.profiles.wheel_file import named_file_digest
 from contactstudy.store import digest
@@ -59,7 +59,7 @@ def read_inputs(study: Study) -> Inputs:
     _cars(config.get("vehicle", {}), files)
     if "measured" in config:
         path = Path(study.measured.file)
-        files[path.name] = file_digest(path)
+        files[path.name] = content_digest(path)
         config["measured"]["file"] = path.name
     section = study.solid.wheel_section
     if digest := named_file_digest(section):
@@ -73,7 +73,7 @@ def read_inputs(study: Study) -> Inputs:
             config["wheelset"][key] = Path(name).name
     if "roughness" in config:
         name = Path(study.roughness.file).name
-        files[name] = file_digest(Path(study.roughness.file))
+        files[name] = content_digest(study.roughness.file)
         config["roughness"] |= {"file": name, "levels": study.roughness.levels()}
     notes = described.warnings + remarks(study) + _scans(study, config, files)
     if "wheelset" in config and (rail_name := study.track.rail.profile_name) is not None:
@@ -135,7 +135,7 @@ def _scans(study: Study, config: dict[str, Any], files: dict[str, str]) -> tuple
     found = scan_meeting(study)
     for key in SCAN_PATHS:
         if name := getattr(study.scan, key):
-            files[Path(name).name] = file_digest(Path(name))
+            files[Path(name).name] = content_digest(name)
             config["scan"][key] = Path(name).name
     config["scan"] |= study.scan.fitted()
     scans = [scan for scan in study.scan.surfaces() if scan is not None]

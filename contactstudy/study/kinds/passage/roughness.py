@@ -11,7 +11,7 @@ import numpy as np
 
 from contactstudy import irregularity as irr
 from contactstudy.exceptions import InputError
-from contactstudy.files import file_digest
+from contactstudy.given_files import content_digest
 from contactstudy.irregularity.shown import IrregularityInfo, Level, SpectrumCurve
 from contactstudy.study.kinds.passage.level import sampled
 from contactstudy.study.kinds.passage.placing import geometry
@@ -42,7 +42,7 @@ class Described:
         names = [table.measured_file] if self.measured else []
         if isinstance(table.wheel_defect, irr.DepthMap):
             names.append(table.wheel_defect.file)
-        return {Path(name).name: file_digest(Path(name)) for name in names}
+        return {Path(name).name: content_digest(name) for name in names}
 
     @cached_property
     def info(self) -> IrregularityInfo:
