@@ -44,7 +44,7 @@ class Scene:
         self.forward = run.attrs.get("travel") != "backward"
         times = run["time"].values
         self.steps = np.searchsorted(times, run["frame_time"].values - 1e-9)
-        self.factor = _rounded(_LARGEST / max(float(decks.max()), 1e-9))
+        self.factor = _rounded(_LARGEST / max(float(np.abs(self.up).max()), 1e-9))
         self.surface = running_surface(bridge.track_height)
         self.window = self._window()
 

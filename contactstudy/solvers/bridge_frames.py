@@ -141,7 +141,12 @@ def _kept(track: StructureTrack) -> _Nodes:
         top = -bridge.bearing_depth
         z = top - pier.x[-1] + pier.x
         add(pier.nodes, np.full(len(z), x), 0.0, z, PIER)
-    return _Nodes(*(np.concatenate(one) for one in (numbers, places, parts, chains)))
+    return _Nodes(
+        np.concatenate(numbers),
+        np.concatenate(places),
+        np.concatenate(parts),
+        np.concatenate(chains),
+    )
 
 
 def running_surface(track_height: float) -> float:

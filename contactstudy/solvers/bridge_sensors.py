@@ -42,6 +42,11 @@ def motion_name(body: str, axis: Axis, order: int) -> str:
     return name if axis == "Z" or order else name.removesuffix(f"_{motion}")
 
 
+def force_name(axis: Axis) -> str:
+    """Name of the forces on supports along an axis."""
+    return f"bearing_{_WORDS[axis]}force"
+
+
 def _variables() -> dict[str, tuple[str, str]]:
     found = {
         motion_name(body, axis, order): (unit, f"{motion} of {text}, {_WAYS[axis]}")
@@ -51,9 +56,9 @@ def _variables() -> dict[str, tuple[str, str]]:
     }
     found["deck_roll"] = "rad", "roll of the deck at the station"
     found |= {name: ("1", f"{text}, positive in tension") for name, text in _STRAINS.items()}
-    for axis, word in _WORDS.items():
+    for axis in _WORDS:
         text = f"force of all bearings on a support along {axis}, {_PUSH[axis]}"
-        found[f"bearing_{word}force"] = "N", text
+        found[force_name(axis)] = "N", text
     return found
 
 
@@ -115,8 +120,8 @@ def sensors(track: StructureTrack, stations: Sequence[float]) -> Iterator[Sensor
             -1.0 if axis == "Z" else 1.0
         )  # rows are of tension, the deck's motion less the pier's
         places = np.arange(spring.shape[0])
-        name = f"bearing_{_WORDS[axis]}force"
-        yield Sensor(name, "support", places, {0: sign * spring, 1: sign * damper})
+        rows = {0: sign * spring, 1: sign * damper}
+        yield Sensor(force_name(axis), "support", places, rows)
 
 
 def _decks(track: StructureTrack, x: Array, axes: Sequence[Axis]) -> Iterator[Sensor]:

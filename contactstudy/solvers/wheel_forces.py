@@ -49,7 +49,10 @@ class WheelForces(Watch):
         if "lateral_force" not in data:
             return data
         # the left wheel pushes its rail to +Y with its flange, the right one to -Y
-        outside = np.where(passage.rails[passage.lateral] == LEFT, 1.0, -1.0)[:, None]
+        rails = passage.rails[passage.lateral]
+        outside = np.where(rails == LEFT, 1.0, -1.0)[:, None]
         quotient = outside * data["lateral_force"].values / Q.where(Q > 0.0).values
         attrs = {"units": "1", "long_name": "Y/Q of the wheel, Y towards the outside"}
-        return data.assign({QUOTIENT: (Q.dims, quotient, attrs)})
+        side = {"long_name": "rail of the track under the wheel, 0 right and 1 left along +X"}
+        data = data.assign({QUOTIENT: (Q.dims, quotient, attrs)})
+        return data.assign_coords(rail=("wheel", rails, side))

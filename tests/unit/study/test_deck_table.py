@@ -1,6 +1,7 @@
 """The deck in figures and tables of a passage."""
 
 import numpy as np
+import pytest
 import xarray as xr
 
 from contactstudy.figures import deck_damping
@@ -45,10 +46,26 @@ def test_the_station_that_moves_most_beside_the_codes():
     assert largest_station(results) == 66.0
     (made,) = deck_table(results)
     rows = [row[1:] for row in made["rows"]]
-    assert rows == [["2.40", "2.00", "1.20", "1.0"], ["3.00", "2.00", "1.50", "1.0"]]
+    # samples four times a second are too few for a filter
+    assert rows == [["2.40", "2.00", "1.20", "1.0", "–"], ["3.00", "2.00", "1.50", "1.0", "–"]]
+    # the third frequency of a beam, 9 times the first
+    assert made["columns"][-1]["title"] == "up to 70.4 Hz"
     assert "3.5 m/s²" in made["note"]
     # Antoing's section over 32 m: f = pi/(2 L^2) sqrt(EI/m) = 3.205 Hz (50/32)^2
     assert "span of 32.0 m with 7.83 Hz" in made["note"]
+
+
+def test_only_frequencies_count_that_en_1990_counts():
+    results = Results(one=deck(-1.2e-3))
+    run = results.runs["one"].interp(time=np.arange(0.0, 1.0, 1e-3))
+    wave = (
+        2.0 * np.sin(2 * np.pi * 10 * run.time) + 5.0 * np.sin(2 * np.pi * 400 * run.time)
+    ).values
+    run["deck_acceleration"] = (("station", "time"), np.outer([np.nan, 1.0, 1.0], wave))
+    results.runs["one"] = run
+    (made,) = deck_table(results)
+    assert float(made["rows"][0][4]) > 6.0  # all frequencies
+    assert float(made["rows"][0][5]) == pytest.approx(2.0, abs=0.1)
 
 
 def test_drawn_with_the_largest_values_in_the_caption():

@@ -6,13 +6,11 @@ from collections.abc import Mapping
 from typing import Any
 
 from contactstudy.compare.bridge_codes import cancellation_speeds, resonance_speeds
-from contactstudy.exceptions import InputError
 from contactstudy.figures.deck_damping import bridge_of
+from contactstudy.figures.train import repeat_length
 from contactstudy.plot.text import number
 from contactstudy.study.kind import Marks
 from contactstudy.study.results import StudyResults
-from contactstudy.validation import entries, read
-from contactstudy.vehicle import VEHICLES
 
 _ORDERS = 12
 
@@ -34,7 +32,7 @@ def speed_marks(config: Mapping[str, Any]) -> list[Marks]:
     f1 = bridge.deck.frequency(span)
     of = f"f₁ = {number(f1, 3)} Hz"
     made = []
-    if length := _repeat_length(config.get("vehicle", {})):
+    if length := repeat_length(config.get("vehicle", {})):
         speeds = resonance_speeds(f1, length, _ORDERS).tolist()
         text = f"resonance, v = f₁ L_c/i, {of}, L_c = {number(length, 3)} m (km/h)"
         made.append(Marks("resonance", speeds, text))
@@ -42,16 +40,3 @@ def speed_marks(config: Mapping[str, Any]) -> list[Marks]:
     text = f"cancellation of the longest span, simply supported, v = 2 f₁ L/(2i + 1), {of}"
     text += f", L = {number(span, 3)} m (km/h)"
     return [*made, Marks("cancellation", speeds, text)]
-
-
-def _repeat_length(vehicle: Mapping[str, Any]) -> float | None:
-    kind = VEHICLES.classes.get(str(vehicle.get("type")))
-    if kind is None or not hasattr(kind, "repeat_length"):
-        return None
-    try:
-        made, problems = read(
-            kind, {k: vehicle[k] for k in entries(kind) if k in vehicle}, "vehicle"
-        )
-        return None if problems else made.repeat_length
-    except InputError:  # a car's file that is no longer there
-        return None

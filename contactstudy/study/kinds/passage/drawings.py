@@ -18,14 +18,18 @@ from contactstudy.figures import (
     section,
     stiffness,
     stress,
+    supports,
     trust,
+    vibration,
+    wheel_forces,
 )
 from contactstudy.plot.drawing import Drawing
 from contactstudy.study.results import StudyResults
 
 _FAMILIES = (
     model, trust, stiffness, ladder, measured, irregularity, histories, bands, bridge_picture,
-    deck, deck_damping,
+    deck, vibration, supports,
+    deck_damping, wheel_forces,
     patch, patch_status, stress, patch_history, section, press, passing,
 )  # fmt: skip
 

@@ -15,6 +15,7 @@
         third_octave {nominal centre in Hz: level less the reference's in dB}, of bands in which
         the reference has content
     comfort:      of runs with car bodies, see `comfort_of`
+    wheel_forces: of runs on bridges, see `contactstudy.study.kinds.passage.safety`
     measured:     with ``[measured]``, see `held_against`
     rungs.<name>: with ``compare.rungs``, the run ``above`` and the same norms against it
 
@@ -43,6 +44,7 @@ from contactstudy.compare.bands import level_differences
 from contactstudy.compare.signals import WITHOUT_STATIC, at_rest, position, same_way, speed
 from contactstudy.study.kinds.passage.comfort import comfort_of
 from contactstudy.study.kinds.passage.held_against import held_against
+from contactstudy.study.kinds.passage.safety import safety_of
 from contactstudy.study.kinds.passage.schema import Study
 from contactstudy.study.kinds.passage.twins import SIGNALS, SMOOTH, SOFTER
 
@@ -67,6 +69,8 @@ def metrics(
         made["rungs"] = rungs(runs, compare_from)
     if found := comfort_of(runs):
         made["comfort"] = found
+    if found := safety_of(runs):
+        made["wheel_forces"] = found
     if study.measured.used and runs:
         made["measured"] = held_against(study.measured, runs)
     return made

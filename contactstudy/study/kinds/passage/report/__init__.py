@@ -15,7 +15,9 @@ from contactstudy.study.kinds.passage.report.conclusion import conclusion
 from contactstudy.study.kinds.passage.report.deck_table import deck_table
 from contactstudy.study.kinds.passage.report.measured_table import measured_tables
 from contactstudy.study.kinds.passage.report.rungs import rung_tables
+from contactstudy.study.kinds.passage.report.safety_table import safety_table
 from contactstudy.study.kinds.passage.report.stress_table import stress_tables
+from contactstudy.study.kinds.passage.report.support_table import support_table
 from contactstudy.study.kinds.passage.report.tables import error_tables, passing_table, run_table
 from contactstudy.study.results import StudyResults
 
@@ -30,7 +32,19 @@ _PARTS = (
     ("Contact force", ("contact_force", "third_octaves")),
     ("Motion of the wheel", ("wheel_displacement", "wheel_acceleration")),
     ("Motion of the rail", ("rail_displacement", "rail_acceleration")),
-    ("Motion of the bridge", ("bridge_passage", "deck_motion", "deck_damping")),
+    ("Wheel forces", ("wheel_forces",)),
+    (
+        "Motion of the bridge",
+        (
+            "bridge_passage",
+            "deck_motion",
+            "velocity_levels",
+            "deck_spectrum",
+            "support_forces",
+            "strains",
+            "deck_damping",
+        ),
+    ),
     (
         "Contact patch",
         (
@@ -105,7 +119,9 @@ def _parts(results: StudyResults) -> list[Part]:
         if title == "Contact force" and own:
             blocks.insert(0, text(EXPLAINED))
         if title == "Motion of the bridge":
-            blocks += deck_table(results)
+            blocks += [*deck_table(results), *support_table(results)]
+        if title == "Wheel forces":
+            blocks += safety_table(results)
         if title == "Contact patch":
             after = [k for k, d in enumerate(own) if d.name.startswith("stress_below")]
             at = after[-1] + 1 if after else len(blocks)
