@@ -20,6 +20,10 @@ napoleon_use_rtype = False
 autodoc_typehints = "none"  # numpydoc's sections say it, with shapes and units
 autodoc_member_order = "bysource"
 exclude_patterns = ["site"]
+html_static_path = ["static", "generated"]
+html_css_files = ["explorer.css"]
+html_show_search_summary = False  # it asks for pages as a server gives them, not from disk
+html_show_copyright = False
 # the studies and scripts of these pages stand in files that are not part of the site
 suppress_warnings = ["myst.xref_missing"]
 html_theme_options = {"sidebar_hide_name": False}

@@ -1,10 +1,14 @@
-"""Pages that are made of the program itself: keys, commands, verification cases, names."""
+"""What is made of the program itself: keys, commands, verification cases, explorer."""
 
 import contextlib
+import importlib.util
 import io
 import json
 import os
+import shutil
 from pathlib import Path
+
+import explorer
 
 from contactstudy import cli
 from contactstudy.verification.cases import CASES
@@ -12,17 +16,29 @@ from contactstudy.verification.check import Check
 from contactstudy.verification.outcome import from_data
 
 BOOK = "verification.json"
+_SCRIPTS = ("bokeh.min.js", "bokeh-api.min.js")
 _RESULT = ("name", "title", "method", "checks", "tables", "figures")
 
 
 def write(docs: Path) -> None:
-    """Write them into docs/reference and docs/book, where they are not kept."""
-    for folder in ("reference", "book"):
+    """Write them into folders of docs where they are not kept."""
+    for folder in ("reference", "book", "generated"):
         (docs / folder).mkdir(exist_ok=True)
     _save(docs / "reference" / "keys.md", _under("Keys of study files", printed("keys")))
     _save(docs / "reference" / "commands.md", commands())
     for name, text in book(docs / BOOK).items():
         _save(docs / "book" / f"{name}.md", text)
+    data = json.loads((docs / explorer.DATA).read_text("utf-8"))
+    _save(docs / "generated" / "trust_map.js", explorer.script(data))
+    for name in _SCRIPTS:
+        shutil.copy(_bokeh(name), docs / "generated" / name)
+
+
+def _bokeh(name: str) -> Path:
+    """A script of Bokeh's package."""
+    found = importlib.util.find_spec("bokeh")
+    assert found is not None and found.origin is not None
+    return Path(found.origin).parent / "server" / "static" / "js" / name
 
 
 def printed(*arguments: str) -> str:

@@ -18,6 +18,15 @@ settings.load_profile("repeatable")  # pytest --hypothesis-profile loads another
 
 
 @pytest.fixture(scope="session")
+def site(tmp_path_factory):
+    """Folder of the built site, see `built_site.py`."""
+    pytest.importorskip("sphinx")
+    from built_site import build
+
+    return build(tmp_path_factory.mktemp("site"))
+
+
+@pytest.fixture(scope="session")
 def session_browser():
     with chromium() as made:
         yield made

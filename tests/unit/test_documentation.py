@@ -4,15 +4,14 @@ import html.parser
 import json
 import re
 import shlex
-import shutil
 from pathlib import Path
+from typing import get_args, get_type_hints
 
 import pytest
 
 from contactstudy.commands import app
+from contactstudy.study.kinds.passage.runs import PointRun
 from contactstudy.verification.cases import CASES
-from contactstudy.verification.check import CaseResult, Check, ResultTable
-from contactstudy.verification.outcome import judged, write_json
 
 ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"
@@ -34,33 +33,6 @@ def test_every_command_is_one(line):
     tokens = shlex.split(line, comments=True)[1:]
     command, bound, _ = app.parse_args(tokens, exit_on_error=False, print_error=False)
     assert callable(command) and bound is not None
-
-
-@pytest.fixture(scope="module")
-def site(tmp_path_factory):
-    """The site, with a book of one case whose numbers are known."""
-    pytest.importorskip("sphinx")
-    from sphinx.application import Sphinx
-
-    work = tmp_path_factory.mktemp("site")
-    shutil.copytree(DOCS, work / "docs", ignore=shutil.ignore_patterns("book", "reference"))
-    (work / "contactstudy").symlink_to(ROOT / "contactstudy")
-    result = CaseResult(
-        name=CASES[0].name,
-        title="A case of the test",
-        method="Two times two.",
-        checks=(Check("product", 4.004, 4.0, "mm", "arithmetic", 0.002),),
-        tables=(ResultTable("Powers | of two", ("n", "2^n"), ((1, 2.0), (10, 1024.0))),),
-        figures=(),
-    )
-    (work / "book").mkdir()
-    write_json([judged(result)], {"versions": {"numpy": "9.9"}, "code": "abc"}, work / "book")
-    shutil.copy(work / "book" / "verification.json", work / "docs" / "verification.json")
-    out = work / "html"
-    made = Sphinx(work / "docs", work / "docs", out, work / "trees", "html", warningiserror=True)
-    made.build()
-    assert made.statuscode == 0
-    return out
 
 
 def test_numbers_of_the_book_are_those_of_the_run(site):
@@ -122,3 +94,23 @@ def test_the_book_of_the_checkout_is_a_real_run():
     data = json.loads((DOCS / "verification.json").read_text("utf-8"))
     assert {case["name"] for case in data["cases"]} <= {case.name for case in CASES}
     assert any("checks" in case for case in data["cases"])
+
+
+def test_every_law_and_filter_has_its_theory():
+    text = (DOCS / "theory.md").read_text("utf-8")
+    types = get_type_hints(PointRun)
+    for key, plain in {"law": "linear", "contact_filter": "none", "patch_filter": "fixed"}.items():
+        values = get_args(types[key])
+        assert plain in values
+        for value in set(values) - {plain}:
+            assert f'`{key} = "{value}"`' in text
+
+
+def test_every_displayed_equation_is_followed_by_its_code():
+    """Within its section, before the next heading."""
+    sections = (DOCS / "theory.md").read_text("utf-8").split("\n## ")[1:]
+    assert len(sections) > 5
+    for section in sections:
+        last = section.rfind("$$")
+        assert "{literalinclude}" in section[last:], section.partition("\n")[0]
+        assert section.count("{literalinclude}") >= 2

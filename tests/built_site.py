@@ -1,0 +1,40 @@
+"""The site as tests read it: built once, with a book of one case whose numbers are known."""
+
+import shutil
+from pathlib import Path
+
+from contactstudy.verification.cases import CASES
+from contactstudy.verification.check import CaseResult, Check, ResultTable
+from contactstudy.verification.outcome import judged, write_json
+
+ROOT = Path(__file__).parents[1]
+DOCS = ROOT / "docs"
+GENERATED = ("book", "reference", "generated")
+
+
+def build(work: Path, whole: bool = False) -> Path:
+    """Build the site in `work`, with the whole book if so asked; its folder."""
+    from sphinx.application import Sphinx
+
+    shutil.copytree(DOCS, work / "docs", ignore=shutil.ignore_patterns(*GENERATED))
+    (work / "contactstudy").symlink_to(ROOT / "contactstudy")
+    if not whole:
+        (work / "book").mkdir()
+        write_json([judged(_case())], {"versions": {"numpy": "9.9"}, "code": "abc"}, work / "book")
+        shutil.copy(work / "book" / "verification.json", work / "docs" / "verification.json")
+    out = work / "html"
+    made = Sphinx(work / "docs", work / "docs", out, work / "trees", "html", warningiserror=True)
+    made.build()
+    assert made.statuscode == 0
+    return out
+
+
+def _case() -> CaseResult:
+    return CaseResult(
+        name=CASES[0].name,
+        title="A case of the test",
+        method="Two times two.",
+        checks=(Check("product", 4.004, 4.0, "mm", "arithmetic", 0.002),),
+        tables=(ResultTable("Powers | of two", ("n", "2^n"), ((1, 2.0), (10, 1024.0))),),
+        figures=(),
+    )
