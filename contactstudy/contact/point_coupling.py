@@ -50,9 +50,15 @@ class PointGaps:
     shape: Array
 
     def rows(self, step: int) -> tuple[IntArray, Array]:
-        """Dofs and weights (nc, j + k) of B: the wheels' less the rail's."""
-        (wheel_dofs, wheel), (rail_dofs, rail) = self.wheels, self.rail(step)
-        return np.hstack((wheel_dofs, rail_dofs)), np.hstack((wheel, -rail))
+        """Dofs and weights (nc, j + k) of B at a step."""
+        return self.joined(*self.rail(step))
+
+    def joined(self, dofs: IntArray, weights: Array) -> tuple[IntArray, Array]:
+        """Those of B, the wheels' less the rail's, from the rail's (..., nc, k)."""
+        of_wheels = (np.broadcast_to(w, (*dofs.shape[:-1], w.shape[-1])) for w in self.wheels)
+        joined = zip(of_wheels, (dofs, -weights), strict=True)
+        rows = [np.concatenate(pair, axis=-1) for pair in joined]
+        return rows[0], rows[1]
 
 
 @dataclass(frozen=True)

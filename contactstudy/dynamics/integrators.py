@@ -13,7 +13,9 @@ N. M. Newmark, J. Eng. Mech. Div. ASCE 85 (1959) 67; J. Chung and G. M. Hulbert,
 from dataclasses import dataclass
 
 import numpy as np
+import scipy.sparse as sp
 
+from contactstudy.dynamics.banded import LinearSystem
 from contactstudy.exceptions import InputError
 
 STEPS_A_PERIOD = 8
@@ -48,6 +50,13 @@ class Integrator:
         beta, gamma = self.beta, self.gamma
         c0, c2, c3 = 1.0 / (beta * dt**2), -1.0 / (beta * dt), 1.0 - 1.0 / (2.0 * beta)
         return c0, c2, c3, gamma * dt * c0, 1.0 + gamma * dt * c2, dt * (1.0 - gamma + gamma * c3)
+
+    def matrix(self, system: LinearSystem, dt: float) -> sp.csr_array:
+        """S (n, n) of a step dt [s], with the new accelerations as unknowns."""
+        # S = (1-am) M + (1-af) gamma dt C + (1-af) beta dt^2 K
+        left = 1.0 - self.alpha_f
+        of_a = left * self.gamma * dt, left * (self.beta * dt**2)
+        return system.combine(1.0 - self.alpha_m, *of_a)
 
     @property
     def constraint_radius(self) -> float:

@@ -167,7 +167,7 @@ def march(
     dt, beta, gamma = steps.length, integrator.beta, integrator.gamma
     am, af = integrator.alpha_m, integrator.alpha_f
     of_a = beta * dt**2
-    factor = Factor(system.combine(1.0 - am, (1.0 - af) * gamma * dt, (1.0 - af) * of_a))
+    factor = Factor(integrator.matrix(system, dt))
     attached = contact_state = None
     if coupling is not None:
         attached = coupling.attached(factor, (1.0 - af) * of_a)

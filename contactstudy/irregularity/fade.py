@@ -1,5 +1,6 @@
 """Profiles that grow smoothly from nothing."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -8,7 +9,7 @@ from numpy.typing import ArrayLike
 from contactstudy.arrays import Array
 from contactstudy.exceptions import InputError
 from contactstudy.irregularity.defective import DefectiveProfile
-from contactstudy.irregularity.profile import Profile, check_derivative
+from contactstudy.irregularity.profile import EVERYWHERE, Profile, check_derivative
 from contactstudy.irregularity.shapes import smoothstep
 
 
@@ -54,6 +55,33 @@ class FadedProfile:
             return s1 * r0 + s0 * r1
         s2 = 60.0 * t * (1.0 - t) * (1.0 - 2.0 * t) / self.length**2
         return s2 * r0 + 2.0 * s1 * r1 + s0 * self.profile(x, 2)
+
+
+@dataclass(frozen=True, eq=False)
+class SharedProfile:
+    """A share of a profile, itself a function of X; where it is 0, the profile need not be known.
+
+    It has no derivatives.
+    """
+
+    profile: Profile
+    share: Callable[[Array], Array]
+    domain = EVERYWHERE
+
+    @property
+    def repeat_length(self) -> float:
+        """That of the profile [m]."""
+        return self.profile.repeat_length
+
+    def __call__(self, x: ArrayLike, derivative: int = 0) -> Array:
+        """Value at positions x of any shape [m]."""
+        if derivative:
+            raise InputError("irregularity: a share of a profile has no derivatives")
+        position = np.asarray(x, dtype=float)
+        out = self.share(position)
+        on = out > 0.0
+        out[on] *= self.profile(position[on])
+        return out
 
 
 def faded(profile: Profile, start: float, length: float) -> Profile:

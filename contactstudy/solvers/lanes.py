@@ -60,11 +60,8 @@ class LaneRun:
     def gaps(self, first: int, stop: int) -> LaneGaps:
         """Gaps at steps first .. stop - 1, without lanes."""
         gaps, at = self.coupling.gaps, slice(first, stop)
-        rail_dofs, rail = self.passage.rail_rows.between(first, stop)
-        (wheel_dofs, wheel), steps = gaps.wheels, len(rail)
-        dofs = np.concatenate((np.repeat(wheel_dofs[None], steps, 0), rail_dofs), axis=2)
-        weights = np.concatenate((np.repeat(wheel[None], steps, 0), -rail), axis=2)
-        return LaneGaps(dofs, weights, gaps.compliance[at], gaps.irregularity[at], gaps.shape[at])
+        rows = gaps.joined(*self.passage.rail_rows.between(first, stop))
+        return LaneGaps(*rows, gaps.compliance[at], gaps.irregularity[at], gaps.shape[at])
 
 
 def in_lanes(runs: Sequence[LaneRun]) -> Iterator[tuple[int, list[int]]]:
@@ -90,13 +87,9 @@ class LaneStepper:
     def __init__(
         self, system: LinearSystem, external: Array, integrator: Integrator, dt: float
     ) -> None:
-        beta, gamma = integrator.beta, integrator.gamma
-        am, af = integrator.alpha_m, integrator.alpha_f
-        factor = Factor(
-            system.combine(1.0 - am, (1.0 - af) * gamma * dt, (1.0 - af) * beta * dt**2)
-        )
+        factor, i = Factor(integrator.matrix(system, dt)), integrator
         self._system, self._columns = lane_system(system, factor), LocalColumns(factor)
-        self._external, self._scheme = external, Scheme(dt, beta, gamma, am, af)
+        self._external, self._scheme = external, Scheme(dt, i.beta, i.gamma, i.alpha_m, i.alpha_f)
 
     def step(
         self, runs: Sequence[LaneRun], lanes: int, report: Callable[[int], object]

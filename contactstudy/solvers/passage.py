@@ -13,13 +13,13 @@ from contactstudy.contact.patch_laws import PatchLaw
 from contactstudy.dynamics.banded import LinearSystem
 from contactstudy.dynamics.rows import add_rows
 from contactstudy.irregularity import Profile, SmoothRail, faded
+from contactstudy.irregularity.fade import SharedProfile
 from contactstudy.irregularity.mirrored import mirrored
 from contactstudy.irregularity.rails import RailProfiles
 from contactstudy.solvers.journey import Journey
 from contactstudy.solvers.travelling import TravellingRows
 from contactstudy.track.discrete import DiscreteTrack
 from contactstudy.track.rail import Direction
-from contactstudy.track.structure import StructureTrack
 from contactstudy.vehicle import Vehicle, turned
 
 T = TypeVar("T", bound=DiscreteTrack, covariant=True)
@@ -118,7 +118,7 @@ class Passage(Generic[T]):
     @cached_property
     def roughness(self) -> Array:
         """(n_times, nc) r at each contact, faded in from its start [m]."""
-        return self._on_track(lambda contact, x: self.faded(contact)(x))
+        return self._each(lambda contact, x: self.faded(contact)(x))
 
     def felt(self, contact_filter: ContactFilter | None = None) -> Array:
         """(n_times, nc) what each contact feels of the faded irregularity [m]; r without a filter.
@@ -132,16 +132,7 @@ class Passage(Generic[T]):
             level = self.faded(contact)
             return level(x) if self.directions[contact] == "Y" else contact_filter(level, x)
 
-        return self._on_track(along)
-
-    def _on_track(self, along: Callable[[int, Array], Array]) -> Array:
-        """A function of contact and way, where the contact is on the track."""
-        if not isinstance(self.track, StructureTrack):
-            return self._each(along)
-        # none on the ground beyond the track's ends, where it need not be known
-        length = self.track.track.length
-        found = self._each(lambda contact, x: along(contact, np.minimum(x, length)))
-        return found * self.track.on_track(self.positions)
+        return self._each(along)
 
     def _each(self, along: Callable[[int, Array], Array]) -> Array:
         """A function of contact and way (n_times,), once for contacts on one rail at one place."""
@@ -166,16 +157,23 @@ class Passage(Generic[T]):
             np.pad(shape, ((0, 0), (0, m - shape.shape[1])), constant_values=-1.0)
             for _, shape in seen
         ]
-        return np.column_stack([felt for felt, _ in seen]), np.stack(shapes, axis=1)
+        # contacts beside the rail have a law of their own
+        felt = np.where(self.lateral, self.roughness, np.column_stack([one for one, _ in seen]))
+        return felt, np.stack(shapes, axis=1)
 
     def faded(self, contact: int) -> Profile:
-        """The irregularity over the way of a contact, faded in from its start on the track."""
-        profile, start = self._profile(contact), float(self.way[0, contact])
-        if self.journey.travel == "backward":
-            profile = mirrored(profile, self.track.track.length)
-        if isinstance(self.track, StructureTrack):
-            start = max(start, 0.0)
-        return faded(profile, start, self.journey.fade_in)
+        """The irregularity over the way of a contact, faded in from its start on the track.
+
+        There is none on ground beyond the ends of a track.
+        """
+        profile, start = self._profile(contact), max(float(self.way[0, contact]), 0.0)
+        length, backward = self.track.track.length, self.journey.travel == "backward"
+        if backward:
+            profile = mirrored(profile, length)
+        level = faded(profile, start, self.journey.fade_in)
+        if self.track.track.structure is None:
+            return level
+        return SharedProfile(level, lambda x: self.track.on_track(length - x if backward else x))
 
     def _profile(self, contact: int) -> Profile:
         rails, direction = self._running.contact_rails, self.directions[contact]

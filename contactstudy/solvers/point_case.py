@@ -130,10 +130,10 @@ class ReadyCase:
 
 
 def _discretised(track: Track, vehicle: Vehicle) -> DiscreteTrack:
-    """The paper's beam, or the track on a bridge in the motions that the vehicle has."""
+    """The paper's beam, or the track on a bridge, in the motions it says or the vehicle has."""
     if track.structure is None:
         return BeamTrack(track)
-    return StructureTrack(track, planar="Y" not in vehicle.contact_directions)
+    return StructureTrack(track, planar=track.structure.planar_under(vehicle.contact_directions))
 
 
 def problems_of_rails(track: DiscreteTrack, vehicle: Vehicle, law: object) -> list[str]:

@@ -19,8 +19,6 @@ class TravellingRows:
 
     Parameters
     ----------
-    track : DiscreteTrack
-        One with `contact_rows` has two rails and both directions.
     positions : ndarray (n_times, nc)
         X of the contacts [m].
     rails, directions : sequence
@@ -67,9 +65,4 @@ class TravellingRows:
         return dofs, weights
 
     def _of(self, kind: tuple[int, Direction], x: Array) -> tuple[IntArray, Array]:
-        made: tuple[IntArray, Array]
-        if hasattr(self._track, "contact_rows"):
-            made = self._track.contact_rows(x, *kind)
-        else:
-            made = self._track.rail_rows(x)
-        return made
+        return self._track.contact_rows(x, *kind)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Annotated, Any, Literal
@@ -180,6 +181,10 @@ class Bridge(Parameters):
         """As in `Parameters`; the damping's frequencies, without what is left out."""
         values = super().resolved() | {"damping_frequencies": list(self._damped_at)}
         return {key: value for key, value in values.items() if value is not None}
+
+    def planar_under(self, directions: Iterable[str]) -> bool:
+        """Whether all moves vertically only, under contacts in some directions."""
+        return self.motion == "planar" or (self.motion is None and "Y" not in directions)
 
     @property
     def length(self) -> float:

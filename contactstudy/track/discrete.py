@@ -45,6 +45,12 @@ class DiscreteTrack(Protocol):
         u(x) = sum(weights * u[dofs]); a dof that an end condition holds has weight 0.
         """
 
+    def contact_rows(self, x: Array, rail: int, direction: Direction) -> tuple[IntArray, Array]:
+        """The same of one of the rails, in a direction, as a wheel at X (m,) feels it."""
+
+    def on_track(self, x: Array) -> Array:
+        """Share of a wheel at X (...) that the track carries, 0 on ground beyond its ends."""
+
     def local_compliance(self, x: Array) -> Array:
         """Compliance under the load that the dofs leave out, (m,) [m/N]."""
 
@@ -85,6 +91,18 @@ class AssembledTrack(ABC):
     @abstractmethod
     def _assembled(self) -> SupportedRail:
         """Rail and supports, end conditions eliminated; made once."""
+
+    @abstractmethod
+    def rail_rows(self, x: Array) -> tuple[IntArray, Array]:
+        """See `DiscreteTrack`."""
+
+    def contact_rows(self, x: Array, rail: int, direction: Direction) -> tuple[IntArray, Array]:
+        """Those of the one rail, in the track's direction."""
+        return self.rail_rows(x)
+
+    def on_track(self, x: Array) -> Array:
+        """All of it: wheels stay on the track."""
+        return np.ones(np.shape(x))
 
     @property
     def n_dofs(self) -> int:

@@ -27,8 +27,7 @@ def vehicle_on(track: Track, table: VehicleTable) -> Vehicle:
 def planar_on(track: Track, vehicle: Vehicle) -> bool:
     """Whether a track on a bridge moves vertically only under a vehicle."""
     assert track.structure is not None
-    motion = track.structure.motion
-    return motion == "planar" or (motion is None and "Y" not in vehicle.contact_directions)
+    return track.structure.planar_under(vehicle.contact_directions)
 
 
 def journey_on(track: Track, vehicle: Vehicle, journey: Journey) -> Journey:
