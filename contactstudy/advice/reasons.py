@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactstudy.compare import norms
 from contactstudy.compare.bands import SHORTEST_RECORD
-from contactstudy.compare.signals import position, values
+from contactstudy.compare.signals import dynamic, side_by_side
 from contactstudy.irregularity.estimate import third_octave_levels
 
 if TYPE_CHECKING:
@@ -33,14 +33,9 @@ def waves(run: xr.Dataset, reference: xr.Dataset, start: float) -> Waves | None:
     Of two contact forces, without their static values, behind the position `start` [m]; None for
     a difference that is zero or too short.
     """
-    pair = position(run), position(reference)
-    x = norms.common_positions(*pair, start)
+    x, a, b = side_by_side(run, reference, partial(dynamic, name="contact_force"), start)
     if len(x) < SHORTEST_RECORD:
         return None
-    a, b = (
-        norms.at_positions(f - f[0], own, x)
-        for own, f in zip(pair, (values(r, "contact_force") for r in (run, reference)), strict=True)
-    )
     bands = third_octave_levels(a - b, float(x[-1] - x[0]) / (len(x) - 1), reference=1.0)
     total = np.concatenate([[0.0], np.cumsum(bands.mean_square)])
     if not total[-1] > 0.0:

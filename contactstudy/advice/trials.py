@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -12,7 +13,7 @@ import numpy as np
 from contactstudy.advice.samples import Samples, Varied, varied
 from contactstudy.advice.schemes import FAMILIES, Scheme, schemes
 from contactstudy.compare import norms
-from contactstudy.compare.signals import position, values
+from contactstudy.compare.signals import dynamic, position, side_by_side, values
 from contactstudy.driver import compute_study
 from contactstudy.exceptions import ContactStudyError, InputError
 from contactstudy.reporter import NotedOnce, Reporter
@@ -116,14 +117,9 @@ class Trials:
 
     def error(self, run: xr.Dataset, reference: xr.Dataset) -> float:
         """Relative L2 difference of two contact forces."""
-        pair = position(run), position(reference)
-        x = norms.common_positions(*pair, self.start)
-        a, b = (
-            norms.at_positions(f if self.part == "total" else f - f[0], own, x)
-            for own, f in zip(
-                pair, (values(r, "contact_force") for r in (run, reference)), strict=True
-            )
-        )
+        part = values if self.part == "total" else dynamic
+        of = partial(part, name="contact_force")
+        x, a, b = side_by_side(run, reference, of, self.start)
         return norms.relative_l2(a, b, x)
 
     def reference_error(self) -> float:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from contactstudy.arrays import Array
+from contactstudy.compare import norms
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -45,6 +47,22 @@ def position(run: xr.Dataset) -> Array:
     """Position (time,) along the track in m; of a run backward from where the train enters."""
     x = values(run, "position")
     return run.attrs["start"] + x[0] - x if run.attrs.get("travel") == "backward" else x
+
+
+def side_by_side(
+    run: xr.Dataset, reference: xr.Dataset, of: Callable[[xr.Dataset], Array], start: float
+) -> tuple[Array, Array, Array]:
+    """Common positions (k,) of two runs from `start` [m] on, and a signal (time,) of both there."""
+    x_run, x_reference = position(run), position(reference)
+    x = norms.common_positions(x_run, x_reference, start)
+    there = norms.at_positions(of(reference), x_reference, x)
+    return x, norms.at_positions(of(run), x_run, x), there
+
+
+def dynamic(run: xr.Dataset, name: str) -> Array:
+    """Variable `name` (time,) less its value at rest."""
+    found = values(run, name)
+    return found - found[0]
 
 
 def same_way(run: xr.Dataset, other: xr.Dataset) -> bool:

@@ -6,8 +6,14 @@ import numpy as np
 import xarray as xr
 
 from contactstudy.arrays import Array
-from contactstudy.compare import norms
-from contactstudy.compare.signals import WITHOUT_STATIC, position, same_way, values
+from contactstudy.compare.signals import (
+    WITHOUT_STATIC,
+    dynamic,
+    position,
+    same_way,
+    side_by_side,
+    values,
+)
 from contactstudy.plot.style import LineStyle, run_styles
 from contactstudy.study.results import StudyResults
 
@@ -75,20 +81,14 @@ def compared(
     Taken as the norms take them: at equal positions of the leading wheel, from `start` [m] on, and
     counted from rest where they do that.
     """
-    reference, run = results.runs[str(results.reference)], results.runs[name]
-    x_reference, x_run = position(reference), position(run)
-    x = norms.common_positions(x_run, x_reference, start)
-    return (
-        x,
-        norms.at_positions(from_rest(reference, signal), x_reference, x),
-        norms.at_positions(from_rest(run, signal), x_run, x),
-    )
+    pair = results.runs[name], results.runs[str(results.reference)]
+    x, own, reference = side_by_side(*pair, lambda run: from_rest(run, signal), start)
+    return x, reference, own
 
 
 def from_rest(run: xr.Dataset, signal: str) -> Array:
     """A signal (time,) as it is compared: less its value at rest where the norms take that off."""
-    found = values(run, signal)
-    return found - found[0] if signal in WITHOUT_STATIC else found
+    return (dynamic if signal in WITHOUT_STATIC else values)(run, signal)
 
 
 def wheel_note(results: StudyResults) -> str:

@@ -22,7 +22,7 @@ from contactstudy.study.kinds.passage.runs import PointRun
 from contactstudy.study.kinds.passage.scan import PATHS as SCAN_PATHS
 from contactstudy.study.kinds.passage.schema import IRREGULARITY, MEASURED, Study
 from contactstudy.study.kinds.passage.touching import touched_beyond
-from contactstudy.study.kinds.passage.twins import all_pieces, untwinned
+from contactstudy.study.kinds.passage.twins import all_pieces, changes, run_of
 from contactstudy.study.kinds.passage.wheelset import PATHS as WHEELSET_PATHS
 from contactstudy.validation import multiple
 from contactstudy.vehicle import Bogie, Train
@@ -154,11 +154,12 @@ def work(study: Study, inputs: Inputs) -> list[Work]:
     """A piece a run, and one a twin."""
 
     def piece(name: str) -> Work:
-        owner, run = untwinned(study, name)
+        run, changed = run_of(name), changes(study, name)
         long = study.runs[run].needs_solid
         light = not long and study.wheel(run) != "modal" and journey(study, run).n_steps <= LIGHT
-        batch = _batch(owner, inputs, run) if light else ""
-        return Work(name, _run_inputs(owner, inputs, run), long=long, light=light, batch=batch)
+        batch = _batch(study, inputs, run) if light else ""
+        own = _run_inputs(study, inputs, run, changed)
+        return Work(name, own, long=long, light=light, batch=batch)
 
     return [piece(name) for name in all_pieces(study)]
 
@@ -172,9 +173,9 @@ def _batch(study: Study, inputs: Inputs, run: str) -> str:
     return digest([shared, study.solid.mesh_size, stepping, study.time_step(run)])
 
 
-def _run_inputs(study: Study, inputs: Inputs, run: str) -> list[Any]:
+def _run_inputs(study: Study, inputs: Inputs, run: str, changed: dict[str, Any]) -> list[Any]:
     """Everything that goes into one run, as plain data; the contents of files stand apart."""
-    own = study.resolved_run(run)
+    own = study.resolved_run(run) | changed
     apart = {"runs", "compare", "solid", "measured", "roughness"} | (
         {"irregularity"} if own["irregularity"] == "smooth" else set()
     )

@@ -74,18 +74,23 @@ def run_of(name: str) -> str:
     return name.partition(".")[0]
 
 
+def changes(study: Study, name: str) -> dict[str, Any]:
+    """Values of a run that are others in a piece of work, its twin; none in its own."""
+    own = study.runs[run_of(name)]
+    if name.endswith(_SMOOTH_TWIN):
+        return {"irregularity": "smooth"}
+    if name.endswith(_SOFTER_TWIN):
+        assert isinstance(own, PointRun)
+        return {"k_r": _softer(own.k_r, 1.0 - study.softer)}
+    return {}
+
+
 def untwinned(study: Study, name: str) -> tuple[Study, str]:
     """The study and run behind a piece of work; of a twin the study with that run changed."""
-    run = run_of(name)
-    if run == name:
+    run, changed = run_of(name), changes(study, name)
+    if not changed:
         return study, run
-    own = study.runs[run]
-    if name.endswith(_SMOOTH_TWIN):
-        changed = replace(own, irregularity="smooth")
-    else:
-        assert isinstance(own, PointRun)
-        changed = replace(own, k_r=_softer(own.k_r, 1.0 - study.softer))
-    return replace(study, runs=study.runs | {run: changed}), run
+    return replace(study, runs=study.runs | {run: replace(study.runs[run], **changed)}), run
 
 
 def _softer(k_r: float | str, part: float) -> Any:
