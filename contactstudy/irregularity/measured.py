@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from contactstudy.arrays import Array
 from contactstudy.exceptions import InputError
 from contactstudy.irregularity.band_pass import band_passed
-from contactstudy.irregularity.plausible import implausible
+from contactstudy.irregularity.plausible import implausible, other_unit
 from contactstudy.irregularity.profile import check_derivative
 from contactstudy.irregularity.table import read_columns
 from contactstudy.validation import raise_if
@@ -145,6 +145,8 @@ def measured_profile(
         shortest = None if wavelengths is None else wavelengths[0]
         unit = level_unit, UNITS[level_unit]
         problems += implausible(file, x, level, lines, level_column, unit, shortest)
+        problems += other_unit(file, level_column, level_unit)
+    problems += other_unit(file, x_column, "m")
     x = x - origin
     if required is not None:
         problems += _uncovered(str(file), (float(x[0]), float(x[-1])), *required)

@@ -16,6 +16,9 @@ FEW_ROWS = 4
 """Rows that may be missing where no shortest wavelength is asked for."""
 
 _PLACEHOLDER = re.compile(r"-?(9{3,}(\.9*)?|32768|32767|2147483648|2147483647)")
+_STATED = re.compile(
+    r"[ _](k?m|cm|mm|[uµμ]m)$|[ _]?[\[(] *(k?m|cm|mm|[uµμ]m|in|inch|ft) *[\])]$", re.IGNORECASE
+)
 _FAR = 10.0  # robust standard deviations from the median
 
 
@@ -81,3 +84,12 @@ def _placeholders(level: Array) -> BoolArray:
     found = np.abs(level - middle) > _FAR * spread
     found[found] = [bool(_PLACEHOLDER.fullmatch(f"{value:.10g}")) for value in level[found]]
     return np.asarray(found)
+
+
+def other_unit(file: Path, column: str, unit: str) -> list[str]:
+    """Complaint where a column's own name ends in a unit of length that is not the one taken."""
+    stated = _STATED.search(column.strip())
+    name = (stated[1] or stated[2]).lower() if stated else unit
+    if re.sub("[µμ]", "u", name) == re.sub("[µμ]", "u", unit):
+        return []
+    return [f"{file}: column '{column}' says {name}, and is to be read in {unit}"]

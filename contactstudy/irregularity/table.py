@@ -72,6 +72,11 @@ def read_columns(
 def _disorder(lines: IntArray, positions: Array, name: str) -> list[str]:
     """Lines at which the position does not increase; unreadable cells are passed over."""
     good = np.flatnonzero(np.isfinite(positions))
+    if good.size > 1 and np.all(np.diff(positions[good]) < 0.0):
+        return [
+            f"line {lines[good[0]]}, column '{name}': positions fall from {positions[good[0]]:g} "
+            f"to {positions[good[-1]]:g}; allowed: increasing positions (turn the rows round)"
+        ]
     found = []
     for i in good[1:][np.diff(positions[good]) <= 0.0]:
         before = positions[good[np.searchsorted(good, i) - 1]]

@@ -1,6 +1,7 @@
 """Every kind of impossible record is refused with its line, wherever it stands (seeded)."""
 
 import random
+import re
 
 import numpy as np
 import pytest
@@ -9,6 +10,7 @@ from hypothesis import strategies as st
 
 from contactstudy.exceptions import InputError
 from contactstudy.irregularity import measured_profile
+from contactstudy.irregularity.doubtful import doubtful
 
 ROWS = 400
 
@@ -149,3 +151,65 @@ def test_other_separators_are_named(tmp_path, mark, name):
     file.write_text("\n".join(mark.join(row) for row in cells(2)) + "\n", "utf-8")
     with pytest.raises(InputError, match=f"parted by {name}"):
         measured_profile(file, "level", "mm")
+
+
+@pytest.mark.parametrize(
+    ("name", "unit"),
+    [("level (m)", "mm"), ("left_um", "mm"), ("z [ft]", "m"), ("level mm", "m"), ("z_µm", "mm")],
+)
+def test_a_unit_in_the_columns_name_is_not_contradicted(tmp_path, name, unit):
+    rows = cells(3)
+    rows[0][1] = name
+    with pytest.raises(InputError, match=r"says .* and is to be read in"):
+        read(tmp_path, rows, level=name, unit=unit)
+
+
+@pytest.mark.parametrize(("name", "unit"), [("left_mm", "mm"), ("z (µm)", "um"), ("film", "mm")])
+def test_a_unit_in_the_columns_name_may_be_the_one_stated(tmp_path, name, unit):
+    rows = cells(3)
+    rows[0][1] = name
+    assert read(tmp_path, rows, level=name, unit=unit).levels.size == ROWS
+
+
+def test_positions_are_in_metres(tmp_path):
+    rows = cells(3)
+    rows[0][0] = "x (km)"
+    with pytest.raises(InputError, match=r"'x \(km\)' says km, and is to be read in m"):
+        read(tmp_path, rows, x_column="x (km)")
+
+
+def test_a_record_that_runs_backwards_is_one_fault(tmp_path):
+    rows = cells(4)
+    with pytest.raises(InputError, match=r"positions fall from 99\.75 to 0; .*turn the rows round"):
+        read(tmp_path, [rows[0], *rows[:0:-1]])
+
+
+@settings(max_examples=25, deadline=None)
+@given(at=st.integers(3, ROWS - 3), seed=st.integers(0, 99), up=st.booleans())
+def test_a_spike_anywhere_is_warned_of_with_its_place_and_height(tmp_path_factory, at, seed, up):
+    folder, rows = tmp_path_factory.mktemp("s"), cells(seed)
+    assert not doubtful(read(folder, rows, wavelengths=None), (2.5, 42.0))
+    rows[at][1] = f"{float(rows[at][1]) + (20.0 if up else -20.0):.3f}"
+    (text,) = doubtful(read(folder, rows, wavelengths=None), (2.5, 42.0))
+    where, high = re.search(r"at X = (\S+) m the level stands (\S+) mm off", text).groups()
+    assert float(where) == float(rows[at][0])
+    assert abs(float(high) - 20.0) < 0.5
+
+
+def test_where_rounding_is_most_of_the_level_is_where_its_noise_meets_the_spectrum(tmp_path):
+    """A record of density A/k^4, rounded to q: q^2/12 dx/(2 pi) = A/k^4 gives the wavelength."""
+    rng, dx, n, quantum = np.random.default_rng(8), 0.25, 8192, 0.5
+    omega = 2.0 * np.pi * np.fft.rfftfreq(n, dx)
+    amplitude = 1.0 / np.maximum(omega, 2.0 * np.pi / 60.0) ** 2
+    phases = np.exp(2j * np.pi * rng.random(omega.size))
+    level = np.fft.irfft(amplitude * phases * np.sqrt(n / dx * 2.0 * np.pi * 0.02), n)  # mm
+    meets = (0.02 / (quantum**2 / 12.0 * dx / (2.0 * np.pi))) ** 0.25
+    rows = [["x", "level"], *([f"{dx * k}", f"{v:.6f}"] for k, v in enumerate(level))]
+    assert not doubtful(read(tmp_path, rows, wavelengths=None), (0.6, 42.0))
+    rounded = quantum * np.rint(level / quantum)
+    rows = [["x", "level"], *([f"{dx * k}", f"{v:.6f}"] for k, v in enumerate(rounded))]
+    (text,) = doubtful(read(tmp_path, rows, wavelengths=None), (0.6, 42.0))
+    assert "in steps of 0.5 mm" in text
+    below = float(re.search(r"shorter than (\S+) m", text)[1])
+    assert below == pytest.approx(2.0 * np.pi / meets, rel=0.15)
+    assert not doubtful(read(tmp_path, rows, wavelengths=None), (2.0 * below, 42.0))

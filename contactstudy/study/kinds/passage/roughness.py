@@ -12,6 +12,7 @@ import numpy as np
 from contactstudy import irregularity as irr
 from contactstudy.exceptions import InputError
 from contactstudy.given_files import content_digest
+from contactstudy.irregularity.doubtful import doubtful
 from contactstudy.irregularity.shown import IrregularityInfo, Level, SpectrumCurve
 from contactstudy.study.kinds.passage.level import sampled
 from contactstudy.study.kinds.passage.placing import geometry
@@ -127,6 +128,7 @@ def describe(study: Study) -> Described:
     notes = [str(w.message) for w in caught]
     if measured:
         notes.append(_left_out(table, *measured))
+        notes += doubtful(measured[0], table.wavelengths)
         if table.spectrum == "measured":
             notes += _unsettled(study, measured[1])
     elif isinstance(profile, irr.HarmonicProfile) and not profile.amplitudes.any():
