@@ -9,7 +9,7 @@ from contactstudy.verification.outcome import judged, write_json
 
 ROOT = Path(__file__).parents[1]
 DOCS = ROOT / "docs"
-GENERATED = ("book", "reference", "generated")
+GENERATED = ("book", "reference", "generated", "examples", "made")
 
 
 def build(work: Path, whole: bool = False) -> Path:

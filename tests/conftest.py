@@ -17,6 +17,12 @@ settings.register_profile("random", derandomize=False, deadline=None, print_blob
 settings.load_profile("repeatable")  # pytest --hypothesis-profile loads another one after this
 
 
+def pytest_configure(config):
+    """With pytest -n 2 the tests marked as one xdist_group go to one worker."""
+    if getattr(config.option, "dist", "no") == "load":
+        config.option.dist = "loadgroup"
+
+
 @pytest.fixture(scope="session")
 def site(tmp_path_factory):
     """Folder of the built site, see `built_site.py`."""

@@ -1,6 +1,7 @@
 """The documentation: it builds without a warning, and its commands and links are real."""
 
 import html.parser
+import importlib.util
 import json
 import re
 import shlex
@@ -16,6 +17,8 @@ from contactstudy.verification.cases import CASES
 ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"
 PAGES = [ROOT / "README.md", *sorted(DOCS.glob("*.md"))]
+
+pytestmark = pytest.mark.xdist_group("site")  # built once, not by each worker
 
 
 def commands():
@@ -40,6 +43,60 @@ def test_numbers_of_the_book_are_those_of_the_run(site):
     for part in ("Two times two.", "4.004 mm", "0.1 %", "0.2 %", "1024", "Powers | of two"):
         assert part in text
     assert "9.9" in (site / "book" / "index.html").read_text("utf-8")
+
+
+PAGE = """
+```toml
+# mine.toml
+title = "Mine"
+```
+
+```python
+from pathlib import Path
+print(Path("mine.toml").read_text().count("Mine"), 0.3448, "of", 7)
+```
+
+The error is 34 %.
+
+```text
+1 0.345 ... 7
+```
+"""
+
+
+@pytest.fixture(scope="module")
+def executed():
+    spec = importlib.util.spec_from_file_location("executed", DOCS / "executed.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def test_blocks_of_a_page_run_and_say_what_they_print(executed, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    executed.run_page("page.md", PAGE)
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong", "told"),
+    [
+        ("0.345", "0.347", "page.md:14: “1 0.347 ... 7” was not printed"),
+        ("1 0.345", "2 0.345", "was not printed"),
+        ("34 %", "37 %", "37 % is no number of the page's blocks"),
+        ("of", "of, wrongly", "page.md:14"),
+        ("from pathlib", "from pathlob", "page.md:7: ModuleNotFoundError"),
+        ("```python", "```bash\ncontactstudy runs mine.toml\n```\n```python", "ends with 2"),
+        ("# mine.toml\n", "", "page.md:2: its first line does not name a file"),
+        ("```python", "```fortran", "no block of fortran"),
+    ],
+)
+def test_a_page_that_says_something_else_is_refused(
+    executed, tmp_path, monkeypatch, right, wrong, told
+):
+    monkeypatch.chdir(tmp_path)
+    page = PAGE.replace(right, wrong) if right != "of" else PAGE.replace("...", wrong)
+    with pytest.raises(executed.PageError, match=re.escape(told)):
+        executed.run_page("page.md", page)
 
 
 def test_formulas_need_no_script(site):

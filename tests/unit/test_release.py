@@ -5,6 +5,8 @@ import tomllib
 from fnmatch import fnmatch
 from pathlib import Path
 
+from built_site import GENERATED
+
 from contactstudy.version import __version__
 
 ROOT = Path(__file__).parents[2]
@@ -27,8 +29,8 @@ def test_every_shipped_datum_is_named_with_its_source():
             folder = Path(files[0]).parent
             named += [folder / Path(file).name for file in files]
     folders = ("meshes", "vehicles", "studies", "reports/template", "docs", "tests")
-    code = {".py", ".pyc", ".md", ".html"}
-    generated = ("docs/book/*", "docs/generated/*", "docs/reference/*", "*/__pycache__/*")
+    code = {".py", ".pyc", ".md", ".rst", ".html"}
+    generated = [f"docs/{made}/*" for made in (*GENERATED, "tutorials/made")] + ["*/__pycache__/*"]
     shipped = [
         path.relative_to(ROOT)
         for folder in folders
