@@ -13,6 +13,7 @@ from contactstudy.exceptions import InputError
 from contactstudy.executor import at_once, check_workers
 from contactstudy.figures import write_figures
 from contactstudy.files import alone, ensure_writable, file_digest, remove_unfinished
+from contactstudy.plot.panels import Panels
 from contactstudy.report import write_report
 from contactstudy.reporter import Quiet, Reporter
 from contactstudy.store import Store
@@ -111,10 +112,11 @@ def compute_study(
 
 def render(results: StudyResults, out_dir: Path, reporter: Reporter) -> list[Path]:
     """Draw the figures of a study and its companions, and typeset the report."""
+    shown: dict[Path, Panels] = {}
     with reporter.stage("drawing the figures"):
-        written = write_figures(results, out_dir)
+        written = write_figures(results, out_dir, shown)
     with reporter.stage("typesetting the report"):
-        return [*written, write_report(results, out_dir)]
+        return [*written, *write_report(results, out_dir, shown=shown)]
 
 
 @contextlib.contextmanager

@@ -40,7 +40,7 @@ def run(
     json: Json = False,
     telling: Telling = TALKING,
 ) -> None:
-    """Run a study; write result.nc, metrics.json, figures/ and report.pdf.
+    """Run a study; write result.nc, metrics.json, figures/, report.pdf and report.html.
 
     Parameters
     ----------

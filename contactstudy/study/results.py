@@ -6,6 +6,7 @@ Layout of an output directory::
     metrics.json    sizes, times, memory and norms
     figures/        *.pdf and *.png
     report.pdf
+    report.html     the same for the screen, its figures drawn from their data
     sweep.csv       what was measured of each variant of a study with axes
     runs/           the store of single pieces of work (see `contactstudy.store`)
     <companion>/    a companion study, laid out the same way
@@ -33,11 +34,12 @@ if TYPE_CHECKING:
 RESULT_FILE = "result.nc"
 METRICS_FILE = "metrics.json"
 REPORT_FILE = "report.pdf"
+PAGE_FILE = "report.html"
 SWEEP_FILE = "sweep.csv"
 FIGURES = "figures"
 RUNS = "runs"
 """Folder in which finished pieces of work are kept."""
-OUTPUTS = (RESULT_FILE, METRICS_FILE, REPORT_FILE, SWEEP_FILE, FIGURES, RUNS)
+OUTPUTS = (RESULT_FILE, METRICS_FILE, REPORT_FILE, PAGE_FILE, SWEEP_FILE, FIGURES, RUNS)
 
 
 @dataclass(frozen=True)

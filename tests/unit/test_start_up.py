@@ -6,8 +6,8 @@ import sys
 import pytest
 
 HEAVY = {
-    "fcl", "matplotlib", "meshio", "numba", "pandas", "pint", "scipy.interpolate", "scipy.optimize",
-    "scipy.signal", "scipy.stats", "trimesh", "typst", "xarray",
+    "bokeh", "fcl", "matplotlib", "meshio", "numba", "pandas", "pint", "scipy.interpolate",
+    "scipy.optimize", "scipy.signal", "scipy.stats", "trimesh", "typst", "xarray",
 }  # fmt: skip
 
 

@@ -200,6 +200,12 @@ def results():
     return made_study(companions=[made_study(rough=0.0, name="smooth_rail")])
 
 
+@pytest.fixture(scope="session")
+def shared_results():
+    """The same, to be read only."""
+    return made_study(companions=[made_study(rough=0.0, name="smooth_rail")])
+
+
 @pytest.fixture
 def bare():
     """A study that has point runs only: no patch, no section, no spectra, no companion."""

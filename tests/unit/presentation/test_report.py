@@ -2,7 +2,6 @@
 
 import math
 import re
-from pathlib import Path
 
 import pytest
 
@@ -25,18 +24,12 @@ A4 = (595.276, 841.89)  # points
 
 
 @pytest.fixture(scope="module")
-def made(tmp_path_factory):
+def made(shared_results, tmp_path_factory):
     """Report of a small study with a companion: its data and its path."""
-    import importlib.util
-
-    here = Path(__file__).with_name("conftest.py")
-    spec = importlib.util.spec_from_file_location("presentation_results", here)
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    study = module.made_study(companions=[module.made_study(rough=0.0, name="smooth_rail")])
+    study = shared_results
     out = tmp_path_factory.mktemp("report")
     place_figures(study, out)
-    return study, out, write_report(study, out)
+    return study, out, write_report(study, out)[0]
 
 
 def place_figures(study, out):
@@ -44,11 +37,12 @@ def place_figures(study, out):
     with figure_style():
         axes = (figure := new_figure(1.0)).add_subplot()
         axes.plot([0, 1], [0, 1])
-        pdf = save(figure, out, "small")[0].read_bytes()
+        files = [path.read_bytes() for path in save(figure, out, "small")]
     for each, folder in [(study, out), *((c, out / c.name) for c in study.companions)]:
         (folder / "figures").mkdir(parents=True)
         for made_figure in drawings(each):
-            (folder / "figures" / f"{made_figure.name}.pdf").write_bytes(pdf)
+            for data, kind in zip(files, ("pdf", "png"), strict=True):
+                (folder / "figures" / f"{made_figure.name}.{kind}").write_bytes(data)
 
 
 def pages(pdf):
@@ -68,8 +62,8 @@ def test_report_is_a_pdf_of_a4_pages(made):
 
 def test_same_results_give_the_same_bytes(made, tmp_path):
     study, out, path = made
-    again = write_report(study, out)
-    assert again.read_bytes() == path.read_bytes()
+    before = [path.read_bytes(), path.with_suffix(".html").read_bytes()]
+    assert [file.read_bytes() for file in write_report(study, out)] == before
 
 
 def test_machine_times_are_left_out_unless_asked_for(made):
@@ -214,7 +208,7 @@ def test_the_papers_scheme_is_the_linear_euler_run(made):
 
 def test_report_without_optional_parts(bare, tmp_path):
     place_figures(bare, tmp_path)
-    path = write_report(bare, tmp_path)
+    path, _ = write_report(bare, tmp_path)
     data = content(bare, False)
     assert [p["title"] for p in data["results"]][:1] == ["Contact force"]
     assert data["companions"] == []
