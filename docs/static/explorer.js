@@ -246,7 +246,9 @@ function showText({ scheme, v, a, w, wave, amplitude, speed }) {
   }
   const parts = [];
   if (error === null) {
-    parts.push(`Nothing is computed at ${told}: a wheel cannot follow a wave with such sharp troughs.`);
+    const why = document.createElement("span");
+    why.textContent = TRUST.failures[v][a][w];
+    parts.push(`Nothing is computed in the nearest cell (${told}): ${why.innerHTML || "it failed"}.`);
   } else {
     parts.push(`<b>${name}: ${percent(error)}</b> in the nearest computed cell (${told}).`);
     if (near.length > 1) {
