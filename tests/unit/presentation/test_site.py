@@ -29,6 +29,22 @@ return found;
 """
 
 
+def faint(browser):
+    return {text: ratio for text, ratio in browser.run(CONTRASTS).items() if ratio < 4.5}
+
+
+def test_faint_text_is_seen(browser, tmp_path):
+    page = tmp_path / "page.html"
+    page.write_text(
+        "<!doctype html><article style='background: #222'><p style='color: #fff'>clear</p>"
+        "<div><p style='color: #777'>faint</p></div></article>",
+        "utf-8",
+    )
+    browser.open(page)
+    # luminances of #777 and #222: ((0x77/255 + 0.055)/1.055)^2.4 = 0.184 and 0.016
+    assert faint(browser) == {"P : faint": pytest.approx(0.2346 / 0.0660, rel=0.01)}
+
+
 def check_pages(site, browser):
     pages = sorted(site.rglob("*.html"))
     assert len(pages) > 10
@@ -36,8 +52,11 @@ def check_pages(site, browser):
     for page in pages:
         browser.show(390, 844, dark=True)
         browser.open(page)
-        faint = {k: v for k, v in browser.run(CONTRASTS).items() if v < 4.5}
-        found = {"too wide by": browser.overflow(), "faint": faint, "errors": browser.errors()}
+        found = {
+            "too wide by": browser.overflow(),
+            "faint": faint(browser),
+            "errors": browser.errors(),
+        }
         if any(found.values()):
             wrong[str(page.relative_to(site))] = found
     assert wrong == {}
