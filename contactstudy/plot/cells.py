@@ -25,7 +25,8 @@ def cells(axes: Axes, mesh: QuadMesh) -> Iterator[Shape]:
     x, y = corners[0, :, 0], corners[:, 0, 1]
     if values.size > _MOST or np.ptp(corners[..., 0], axis=0).any():
         raise UnknownShapeError("a large or oblique map")
-    bar = mesh.colorbar
+    bars = [m.colorbar for a in axes.figure.axes for m in a.collections if m.norm is mesh.norm]
+    bar = next((bar for bar in bars if bar), None)
     equal = (axes.get_xscale(), axes.get_yscale()) == ("linear", "linear") and all(
         np.allclose(np.diff(u), u[1] - u[0]) for u in (x, y)
     )
@@ -36,6 +37,7 @@ def cells(axes: Axes, mesh: QuadMesh) -> Iterator[Shape]:
         "values": values.reshape(len(y) - 1, len(x) - 1),
         "colours": _colours(mesh.norm, mesh.cmap),
         "name": bar.ax.get_ylabel() or bar.ax.get_xlabel() if bar else "",
+        "bar": bar is not None,
     }
 
 

@@ -16,6 +16,7 @@ from contactstudy.texts import json_text
 
 _BYTES = 2 * 4 * 4 / 3
 """Of a point: two numbers of 4 bytes, in base64."""
+_TRIALS = 3
 _FEWEST = 300
 """Points of a line that are never thinned."""
 
@@ -27,8 +28,16 @@ def packed(figures: Mapping[str, Panels], room: float) -> tuple[str, int]:
     are 0 where all are there; lines are thinned to no less than `_FEWEST`.
     """
     sizes = [len(s["x"]) for f in figures.values() for p in f.panels for s in p.shapes if _long(s)]
+    longest = max(sizes, default=0)
+    if len(text := _text(figures, longest)) <= room:
+        return text, 0
     most = _share(sizes, (room - len(_text(figures, _FEWEST))) / _BYTES)
-    return _text(figures, most), most if max(sizes, default=0) > most else 0
+    for _ in range(_TRIALS):  # arrays that stand there once leave room
+        larger = min(int(most * room / len(text := _text(figures, most))), longest - 1)
+        if len(tried := _text(figures, larger)) > room or larger <= most:
+            break
+        text, most = tried, larger
+    return text, most
 
 
 def _text(figures: Mapping[str, Panels], most: int) -> str:

@@ -72,14 +72,16 @@ class Panels:
 
 def panels_of(figure: Figure) -> Panels | None:
     """The panels of a figure that is laid out; None where something is no curve, area or map."""
-    legend = _legend(figure)
     bars = {m.colorbar.ax for axes in figure.axes for m in axes.collections if m.colorbar}
     shown = [axes for axes in figure.axes if axes not in bars and axes.get_visible()]
+    common = _entries(*figure.legends)
+    legends = [common | _entries(axes.get_legend()) for axes in shown]
     try:
-        made = [_panel(figure, axes, shown, legend) for axes in shown]
+        made = [_panel(figure, a, shown, own) for a, own in zip(shown, legends, strict=True)]
     except UnknownShapeError:
         return None
-    return Panels(tuple(made), tuple(legend.values())) if made else None
+    entries = {e["label"]: e for legend in (common, *legends) for e in legend.values()}
+    return Panels(tuple(made), tuple(entries.values())) if made else None
 
 
 def _panel(figure: Figure, axes: Axes, shown: list[Axes], legend: dict[Any, Shape]) -> Panel:
@@ -140,15 +142,13 @@ def _above(axes: Axes) -> tuple[tuple[tuple[float, str], ...], str]:
     )
 
 
-def _legend(figure: Figure) -> dict[Any, Shape]:
-    """Entries of all legends by label, and by the look of their lines."""
+def _entries(*legends: Legend | None) -> dict[Any, Shape]:
+    """Entries of legends by the look of their lines."""
     found: dict[Any, Shape] = {}
-    legends = [*figure.legends, *(a.get_legend() for a in figure.axes)]
-    for legend in (one for one in legends if isinstance(one, Legend)):
+    for legend in filter(None, legends):
         for handle, text in zip(legend.legend_handles, legend.get_texts(), strict=True):
-            key = key_of(handle)
-            if handle is not None and key is not None:
-                found.setdefault(key, {"label": text.get_text(), **dict(key)})
+            if (key := key_of(handle)) is not None:
+                found[key] = {"label": text.get_text(), **dict(key)}
     return found
 
 

@@ -106,7 +106,7 @@ const draw = {
     const fields = Object.fromEntries(["left", "right", "bottom", "top"].map((n) => [n, { field: n }]));
     const color = { field: "v", transform: mapper(shape.colours) };
     const source = new Bokeh.ColumnDataSource({ data: columns });
-    return plot.quad({ ...fields, source, fill_color: color, line_color: color, line_width: 0.5 });
+    return plot.quad({ ...fields, source, fill_color: color, line_color: color });
   },
   image(plot, shape) {
     const [x, y] = [values(shape.x), values(shape.y)];
@@ -127,7 +127,9 @@ const draw = {
   stretch(plot, shape) {
     const ends = shape.along === "x"
       ? { left: shape.low, right: shape.high } : { bottom: shape.low, top: shape.high };
-    plot.add_layout(new Bokeh.BoxAnnotation({ ...ends, ...filling(shape), level: "underlay" }));
+    const line_dash = shape.fill ? "solid" : "dotted";
+    const own = { ...ends, ...filling(shape), line_dash, level: "underlay" };
+    plot.add_layout(new Bokeh.BoxAnnotation(own));
   },
   text(plot, shape) {
     plot.add_layout(new Bokeh.Label({
@@ -154,7 +156,7 @@ function bar(plot, shape) {
 function panel(own, drawn, element) {
   const range = (which) => drawn[own.shares[which === "x" ? 0 : 1]]?.[`${which}_range`] ?? axis(own[which]);
   const equal = Math.abs((own.y.high - own.y.low) / (own.x.high - own.x.low));
-  const beside = own.shapes.some((shape) => shape.colours) ? 160 : 95; // labels and colour bar
+  const beside = own.shapes.some((shape) => shape.bar) ? 160 : 95; // labels and colour bar
   const frame = Math.min(element.clientWidth - beside, 480);
   const size = own.equal
     ? { frame_width: frame, frame_height: Math.round(frame * equal) }
@@ -174,17 +176,21 @@ function panel(own, drawn, element) {
   plot.toolbar.active_drag = matchMedia("(pointer: coarse)").matches ? null : zoom;
   plot.toolbar.active_scroll = null;
   plot.toolbar.logo = null;
-  for (const axis of [...plot.below, ...plot.left]) axis.axis_label_text_font_style = "normal";
+  for (const axis of [...plot.below, ...plot.left]) {
+    axis.axis_label_text_font_style = "normal";
+    axis.axis_label_text_font_size = "12px";
+  }
   if (own.x.ticks) ticks(plot.below[0], own.x.ticks);
   if (own.y.ticks) ticks(plot.left[0], own.y.ticks);
   if (own.above.length) {
     const kind = own.x.logarithmic ? Bokeh.LogAxis : Bokeh.LinearAxis;
-    const second = new kind({ axis_label: own.above_label, axis_label_text_font_style: "normal" });
+    const second = new kind({ axis_label: own.above_label, axis_label_text_font_style: "normal",
+      axis_label_text_font_size: "12px" });
     ticks(second, own.above);
     plot.add_layout(second, "above");
   }
   const made = own.shapes.map((shape) => draw[shape.kind](plot, shape));
-  own.shapes.filter((shape) => shape.colours).forEach((shape) => bar(plot, shape));
+  own.shapes.filter((shape) => shape.bar).forEach((shape) => bar(plot, shape));
   return [plot, made];
 }
 
@@ -221,7 +227,7 @@ function read(shape, own, x, y) {
 function swatch(entry) {
   const dash = Array.isArray(entry.dash) ? entry.dash.map((v) => 1.6 * v) : [];
   const path = `<path d="M0 5H28" stroke="${entry.color}" stroke-width="2" stroke-dasharray="${dash}"/>`;
-  const dot = `<circle cx="14" cy="5" r="4" fill="${entry.color}"/>`;
+  const dot = `<circle cx="14" cy="5" r="3.5" stroke="${entry.color}" fill="${entry.fill ?? "none"}"/>`;
   return `<svg width="28" height="10">${entry.dash === "none" ? dot : path}</svg>`;
 }
 

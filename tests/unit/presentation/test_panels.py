@@ -89,6 +89,19 @@ def test_panels_know_whose_range_they_share():
     assert [at for at, _ in found[1].above] == pytest.approx([1.0, 2.0])
 
 
+def test_legends_of_panels_are_their_own():
+    """The same look means different things in two panels."""
+
+    def draw(figure, a, b):
+        for axes, name in ((a, "left"), (b, "right")):
+            axes.plot(X, X, color="#ff0000", label=name)
+            axes.legend()
+
+    found = shown(draw, 1, 2)
+    assert [panel.shapes[0]["label"] for panel in found.panels] == ["left", "right"]
+    assert [entry["label"] for entry in found.legend] == ["left", "right"]
+
+
 def test_maps_keep_their_values():
     values = np.arange(12.0).reshape(3, 4) + 1.0
     values[1, 1] = np.nan
@@ -106,6 +119,7 @@ def test_maps_keep_their_values():
     assert kinds(first) == ["image", "line"] and kinds(second) == ["cells"]
     assert np.array_equal(first.shapes[0]["values"], values, equal_nan=True)
     assert first.shapes[0]["name"] == "error (%)" and first.shapes[0]["colours"]["log"]
+    assert first.shapes[0]["bar"] and not second.shapes[0]["bar"]
     colours = second.shapes[0]["colours"]
     assert colours["bounds"] == [2.0, 5.0] and len(set(colours["palette"])) == 3
 
