@@ -1,6 +1,7 @@
 """Speeds of resonance and cancellation along the axis of a sweep; what is measured of decks."""
 
 import math
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -12,6 +13,8 @@ from contactstudy.study.axes.shown import Shown
 from contactstudy.study.kind import Marks, Quantity
 from contactstudy.study.kinds.passage import measures
 from contactstudy.study.kinds.passage.bridge_speeds import marks, speed_marks
+from contactstudy.study.kinds.passage.execution import execute_run
+from contactstudy.study.loading import load_study
 from contactstudy.vehicle import AxleLoads, FreightWagons, HighSpeedLoadModel, Train
 
 F1 = math.pi / (2 * 32.0**2) * math.sqrt(34.5e9 * 10.947 / 34e3)
@@ -73,6 +76,30 @@ def test_marks_within_the_figure_are_drawn_in_its_unit():
     (axes,) = made.draw().axes
     upright = [line.get_xdata()[0] for line in axes.lines[1:]]
     np.testing.assert_allclose(upright, [198.0, 234.0])
+
+
+def test_dynamic_factor_at_the_station_that_moves_most():
+    dynamic = [[np.nan] * 3, [0.0, -3.0, 1.0], [0.0, 0.5, 1.5]]
+    static = [[np.nan] * 3, [0.0, -2.0, 0.5], [0.0, 0.1, 0.1]]
+    run = xr.Dataset(
+        {
+            "deck_displacement": (("station", "time"), dynamic),
+            "deck_static": (("station", "time"), static),
+        }
+    )
+    assert measures._amplification(run) == 1.5
+    assert measures._amplification(run.isel(station=[0])) is None
+    assert measures._amplification(xr.Dataset()) is None
+
+
+def test_the_shipped_sweep_is_louder_at_resonance_than_at_cancellation():
+    study = load_study("train_speeds", quick=True).study
+    resonance, cancellation = speed_marks(study.config())
+    factors = []
+    for speed in (resonance.at[0], cancellation.at[0]):
+        at = replace(study, journey=study.journey.changed(speed=float(speed), time_step=2e-3))
+        factors.append(measures._amplification(execute_run(at, "moving_force")))
+    assert factors[0] > 1.5 * factors[1]
 
 
 def test_largest_size_over_the_stations_of_decks():

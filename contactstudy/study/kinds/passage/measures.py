@@ -7,6 +7,7 @@
     static, smallest, largest (run, signal)       at rest, and behind the fade-in
     root_mean_square (run, signal, part)          of the dynamic and the irregularity's part
     largest_of_deck (run, signal)                 size, over all stations on decks
+    amplification (run)                           dynamic factor of the deck, where it moves most
     contact_lost (run)                            share of the way without contact
     of defects also those of `contactstudy.study.kinds.passage.impacts`
 
@@ -21,6 +22,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from contactstudy.compare.bridge_codes import amplification
 from contactstudy.compare.signals import position, same_way
 from contactstudy.study.axes.measured import Measured, measured
 from contactstudy.study.kinds.passage.impacts import closed_forms, impacts
@@ -48,6 +50,10 @@ _OWN = {
     "largest": (f"largest value behind the fade-in, {_UNIT}", _RUN),
     "root_mean_square": (f"root mean square of a part of the signal, {_UNIT}", [*_RUN, "part"]),
     "largest_of_deck": (f"largest size over the stations on decks, {_UNIT}", _RUN),
+    "amplification": (
+        "largest dynamic over largest static deflection of the deck, at the station of the largest",
+        ["run"],
+    ),
     "contact_lost": ("share of the way without contact", ["run"]),
 }
 
@@ -60,6 +66,8 @@ def measure(study: Study, found: Mapping[str, Any]) -> Measured:
     for name, run in runs.items():
         _own(run, start, lambda variable, name=name: made[variable]["values"].setdefault(name, {}))
         made["contact_lost"]["values"][name] = _lost(run, start)
+        if (factor := _amplification(run)) is not None:
+            made["amplification"]["values"][name] = factor
         reference = None if study.reference is None else runs[study.reference]
         if reference is not None and name != study.reference and same_way(run, reference):
             for signal, entry in compare_runs(run, reference, start, False).items():
@@ -119,6 +127,15 @@ def _own(run: xr.Dataset, start: float, of: Any) -> None:
         parts = {k: behind(v, x, start) for k, v in parts_of(run, signal).items()}
         squares = {part: float(np.sqrt(np.nanmean(v**2))) for part, v in parts.items()}
         of("root_mean_square")[signal] = squares
+
+
+def _amplification(run: xr.Dataset) -> float | None:
+    """Of the deck at the station where it moves most; None without one."""
+    if "deck_static" not in run or not np.isfinite(run["deck_displacement"].values).any():
+        return None
+    dynamic, static = run["deck_displacement"].values, run["deck_static"].values
+    k = int(np.nanargmax(np.nanmax(np.abs(dynamic), axis=1, initial=0.0)))
+    return amplification(dynamic[k], static[k]) if np.any(static[k]) else None
 
 
 def _lost(run: xr.Dataset, start: float) -> float:
