@@ -31,7 +31,7 @@ from contactstudy.study.axes.terminal import check_swept, expected_seconds, summ
 from contactstudy.study.kind import find_kind
 from contactstudy.study.loading import base_of, load_companions
 from contactstudy.study.overrides import flat
-from contactstudy.study.plan import Plan, plan_study
+from contactstudy.study.plan import Plan, of_texts, plan_study
 from contactstudy.study.results import StudyResults
 from contactstudy.study.study import Study
 from contactstudy.texts import visible
@@ -143,16 +143,19 @@ def results_json(results: StudyResults, out_dir: Path) -> str:
 class Checked:
     """A study that can be run: what is worth knowing of it, and texts and tables of its needs."""
 
-    plan: Plan
+    study: Study
+    warnings: tuple[str, ...]
     needs: tuple[str | Table, ...]
+    plan: Plan | None
+    """Of a study with axes; that of another takes time, and is asked for as JSON only."""
 
     def print(self, console: Console) -> None:
         """Print resolved values and needs."""
-        study = self.plan.study
+        study = self.study
         console.print(Text(study.title, "bold"), f"({study.name})")
         if study.description:
             console.print(" ".join(study.description.split()))
-        for warning in self.plan.warnings:
+        for warning in self.warnings:
             console.print(visible(f"warning: {warning}"), soft_wrap=True)
         units = study.units()
         values = Table(*(Column(name, overflow="fold") for name in ("key", "value", "SI unit")))
@@ -165,12 +168,12 @@ class Checked:
     @property
     def json(self) -> str:
         """The same as JSON; each table as a list of its rows."""
-        study = self.plan.study
+        study = self.study
         about = {name: getattr(study, name) for name in ("name", "title", "description", "kind")}
         values = {"config": study.config(), "units": study.units()}
-        seconds = expected_seconds(self.plan)
+        seconds = expected_seconds(self.plan or plan_study(study, Path()))
         needs = [item if isinstance(item, str) else _rows(item) for item in self.needs]
-        told = {"warnings": self.plan.warnings, "expected_seconds": seconds, "needs": needs}
+        told = {"warnings": self.warnings, "expected_seconds": seconds, "needs": needs}
         return _json(about | values | told)
 
 
@@ -185,13 +188,12 @@ def check_study(study: Study, reporter: Reporter, quick: bool = False) -> Checke
     companions = load_companions(study, quick)
     theirs = [one for c in companions for one in load_companions(c, quick, last=True)]
     studies = [base_of(one) for one in (study, *companions, *theirs)]
-    plan = plan_study(study, Path())
-    for one in studies[1:]:
-        find_kind(one.kind).read_inputs(one)
-    needs = [*plan.kind.check(studies[0], studies[1:], reporter)]
+    inputs = [find_kind(one.kind).read_inputs(one) for one in studies]
+    needs, plan = [*find_kind(study.kind).check(studies[0], studies[1:], reporter)], None
     if isinstance(study, Swept):
+        plan = plan_study(study, Path())
         needs = ["the study as its file has it:", *needs, *check_swept(study, plan)]
-    return Checked(plan, tuple(needs))
+    return Checked(study, (*inputs[0].warnings, *of_texts(study)), tuple(needs), plan)
 
 
 def _json(told: Mapping[str, Any]) -> str:

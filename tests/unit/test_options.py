@@ -31,7 +31,7 @@ def test_check_as_json_is_what_the_study_says(short, capfd):
     study = load_study(short, ["journey.speed=180 km/h"])
     assert told["config"] == json.loads(json.dumps(study.config()))
     assert told["config"]["journey"]["speed"] == 50.0 and told["units"]["journey.speed"] == "m/s"
-    assert told["warnings"] == list(check_study(study, Quiet()).plan.warnings)
+    assert told["warnings"] == list(check_study(study, Quiet()).warnings)
     (sizes,) = (item for item in told["needs"] if isinstance(item, list))
     assert [row["run"] for row in sizes] == ["point", "hertz"]
     assert told["expected_seconds"] > 0.0
