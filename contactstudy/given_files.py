@@ -4,11 +4,12 @@ import codecs
 import hashlib
 import stat
 import tomllib
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
 from contactstudy.exceptions import InputError, reason
+from contactstudy.validation.messages import did_you_mean
 
 LARGEST = 2**30
 """Bytes of the largest file that is read."""
@@ -94,6 +95,19 @@ def file_text(path: str | Path, kind: str = "text", fallback: str = "") -> str:
     if "\0" in text:
         raise InputError(f"{path}: this is not a {kind} file (it has zero characters)")
     return text.replace("\r\n", "\n").replace("\r", "\n")
+
+
+def named_file(name: str, shipped: Mapping[str, Path], what: str) -> Path:
+    """The TOML file of a name: a user's own by its ending, else one that is shipped."""
+    path = Path(name)
+    if path.suffix == ".toml":
+        return path
+    if name not in shipped:
+        raise InputError(
+            f'{what} "{name}" is unknown{did_you_mean(name, shipped)}; allowed: '
+            f"{', '.join(shipped)}, or a file ending in .toml"
+        )
+    return shipped[name]
 
 
 def toml_file(path: str | Path) -> dict[str, Any]:

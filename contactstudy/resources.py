@@ -28,3 +28,8 @@ def resource(kind: str, *parts: str) -> Path:
         if path.exists():
             return path
     raise InputError(f"{'/'.join((kind, *parts))}: no such file is shipped with contactstudy")
+
+
+def shipped(*parts: str) -> dict[str, Path]:
+    """Name -> TOML file in a folder of `resource`, in alphabetical order."""
+    return {path.stem: path for path in sorted(resource(*parts).glob("*.toml"))}

@@ -27,18 +27,29 @@ if TYPE_CHECKING:
     from contactstudy.study.study import Study
 
 
+@Parameter(name="*")
+@dataclass(frozen=True)
+class Ways:
+    """How a study is run, and what is said of it."""
+
+    quick: Quick = False
+    workers: Workers = 2
+    scheduler: Scheduler = ""
+    overwrite: Overwrite = False
+    json: Json = False
+    telling: Telling = TALKING
+
+
+USUAL = Ways()
+
+
 def run(
     study: str,
     *,
     out: Out,
     overrides: Overrides = (),
     sweep: Sweep = (),
-    quick: Quick = False,
-    workers: Workers = 2,
-    scheduler: Scheduler = "",
-    overwrite: Overwrite = False,
-    json: Json = False,
-    telling: Telling = TALKING,
+    ways: Ways = USUAL,
 ) -> None:
     """Run a study; write result.nc, metrics.json, figures/, report.pdf and report.html.
 
@@ -51,8 +62,7 @@ def run(
     """
     from contactstudy.study.loading import load_study
 
-    loaded = load_study(study, overrides, sweep=sweep, quick=quick)
-    _run(loaded, out, Ways(workers, scheduler, quick, overwrite, json, telling))
+    _run(load_study(study, overrides, sweep=sweep, quick=ways.quick), out, ways)
 
 
 def reproduce(
@@ -62,12 +72,7 @@ def reproduce(
     ] = False,
     out: Out = Path("reports/out"),
     overrides: Overrides = (),
-    quick: Quick = False,
-    workers: Workers = 2,
-    scheduler: Scheduler = "",
-    overwrite: Overwrite = False,
-    json: Json = False,
-    telling: Telling = TALKING,
+    ways: Ways = USUAL,
 ) -> None:
     """Run the studies that make the paper's figures, by default the main comparison.
 
@@ -84,23 +89,11 @@ def reproduce(
     if every and names:
         raise InputError(f"--all: goes without names of studies (given: {', '.join(names)})")
     chosen = dict.fromkeys(names or (main_study,))
-    loaded = [load_study(name, overrides, quick=quick) for name in chosen]
+    loaded = [load_study(name, overrides, quick=ways.quick) for name in chosen]
     folders = [out if study.name == main_study else out / study.name for study in loaded]
     _each_its_own(loaded, folders)
     for study, folder in zip(loaded, folders, strict=True):
-        _run(study, folder, Ways(workers, scheduler, quick, overwrite, json, telling))
-
-
-@dataclass(frozen=True)
-class Ways:
-    """How a study is run, and what is said of it."""
-
-    workers: int
-    scheduler: str
-    quick: bool
-    overwrite: bool
-    json: bool
-    telling: Telling
+        _run(study, folder, ways)
 
 
 def _run(study: Study, out: Path, ways: Ways) -> None:

@@ -6,9 +6,15 @@ from pathlib import Path
 from typing import Any
 
 from contactstudy.exceptions import InputError
-from contactstudy.given_files import changed, content_digest, is_file, toml_file
+from contactstudy.given_files import (
+    changed,
+    content_digest,
+    is_file,
+    named_file,
+    toml_file,
+)
 from contactstudy.profiles.wheel_body import WheelDimensions
-from contactstudy.resources import resource
+from contactstudy.resources import shipped
 
 DEFAULT = "straight_860"
 """The shipped wheel."""
@@ -43,15 +49,7 @@ def wheel_dimensions(section: str = DEFAULT) -> WheelDimensions:
     InputError
         Listing everything that is wrong with the file.
     """
-    path = Path(section)
-    if path.suffix != ".toml":
-        shipped = wheel_sections()
-        if section not in shipped:
-            raise InputError(
-                f"wheel section '{section}' is unknown; allowed: {', '.join(sorted(shipped))}, or "
-                "a file ending in .toml"
-            )
-        path = shipped[section]
+    path = named_file(section, wheel_sections(), "wheel section")
     return _read(section, path, changed(path))
 
 
@@ -69,7 +67,7 @@ def _read(section: str, path: Path, changed: int) -> WheelDimensions:
 
 def wheel_sections() -> dict[str, Path]:
     """Name -> file of the wheels that come with the program."""
-    return {path.stem: path for path in sorted(resource("meshes", "wheels").glob("*.toml"))}
+    return shipped("meshes", "wheels")
 
 
 def named_file_digest(path: str) -> str:

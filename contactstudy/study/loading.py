@@ -11,7 +11,7 @@ from typing import Any
 from contactstudy.exceptions import InputError
 from contactstudy.files import is_reserved
 from contactstudy.given_files import is_file, toml_file
-from contactstudy.resources import resource
+from contactstudy.resources import shipped
 from contactstudy.study.axes.keys import TABLES, apply_quick, without_keys
 from contactstudy.study.axes.swept import Source, Swept
 from contactstudy.study.axes.table import read_designs
@@ -23,7 +23,7 @@ from contactstudy.validation import complaint, did_you_mean, raise_if
 
 def shipped_studies() -> dict[str, Path]:
     """Name -> file of the studies that come with the program, in alphabetical order."""
-    return {path.stem: path for path in sorted(resource("studies").glob("*.toml"))}
+    return shipped("studies")
 
 
 def find_study(study: str | Path) -> Path:
@@ -39,13 +39,13 @@ def find_study(study: str | Path) -> Path:
     path, name = Path(study), str(study)
     if is_file(path):
         return path
-    shipped = shipped_studies()
+    ours = shipped_studies()
     stem = name.removesuffix(".toml")
-    if stem in shipped:
-        return shipped[stem]
-    hint = did_you_mean(Path(stem).name, shipped)
+    if stem in ours:
+        return ours[stem]
+    hint = did_you_mean(Path(stem).name, ours)
     raise InputError(
-        f"study {name}: no such file nor shipped study{hint}; shipped: {', '.join(shipped)}"
+        f"study {name}: no such file nor shipped study{hint}; shipped: {', '.join(ours)}"
     )
 
 

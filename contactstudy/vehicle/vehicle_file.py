@@ -1,12 +1,13 @@
 """Vehicle files, like ``vehicles/s300.toml``: the parameters of one car and their source."""
 
 from collections.abc import Mapping
+from functools import lru_cache
 from pathlib import Path
 
 from contactstudy.exceptions import InputError
-from contactstudy.given_files import toml_file
-from contactstudy.resources import resource
-from contactstudy.validation import did_you_mean, read
+from contactstudy.given_files import changed, named_file, toml_file
+from contactstudy.resources import shipped
+from contactstudy.validation import read
 from contactstudy.vehicle.car import Car
 
 _TEXTS = ("name", "source", "notes")
@@ -14,7 +15,7 @@ _TEXTS = ("name", "source", "notes")
 
 def shipped_cars() -> dict[str, Path]:
     """Name -> file of the cars that come with the program."""
-    return {path.stem: path for path in sorted(resource("vehicles").glob("*.toml"))}
+    return shipped("vehicles")
 
 
 def read_car(name: str) -> Car:
@@ -25,15 +26,13 @@ def read_car(name: str) -> Car:
     InputError
         Listing everything that is wrong with the file.
     """
-    path = Path(name)
-    if path.suffix != ".toml":
-        shipped = shipped_cars()
-        if name not in shipped:
-            raise InputError(
-                f'car "{name}" is unknown{did_you_mean(name, shipped)}; allowed: '
-                f"{', '.join(shipped)}, or a file ending in .toml"
-            )
-        path = shipped[name]
+    path = named_file(name, shipped_cars(), "car")
+    return _read(path, changed(path))
+
+
+@lru_cache(maxsize=64)
+def _read(path: Path, changed: int) -> Car:
+    """The car of a file as it was `changed` last."""
     data = toml_file(path)
     problems = [
         f"{key}: unknown key; allowed: {', '.join(_TEXTS)} and the table [car]"
