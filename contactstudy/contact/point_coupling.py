@@ -53,12 +53,12 @@ class PointGaps:
         """Dofs and weights (nc, j + k) of B at a step."""
         return self.joined(*self.rail(step))
 
-    def joined(self, dofs: IntArray, weights: Array) -> tuple[IntArray, Array]:
-        """Those of B, the wheels' less the rail's, from the rail's (..., nc, k)."""
-        of_wheels = (np.broadcast_to(w, (*dofs.shape[:-1], w.shape[-1])) for w in self.wheels)
-        joined = zip(of_wheels, (dofs, -weights), strict=True)
-        rows = [np.concatenate(pair, axis=-1) for pair in joined]
-        return rows[0], rows[1]
+    def joined(self, rail_dofs: IntArray, rail: Array) -> tuple[IntArray, Array]:
+        """Those of B from the rail's (..., nc, k): the wheels' less the rail's."""
+        # B = (1, -N)
+        (wheel_dofs, wheel), shape = self.wheels, (*rail.shape[:-1], self.wheels[0].shape[-1])
+        dofs = np.concatenate((np.broadcast_to(wheel_dofs, shape), rail_dofs), axis=-1)
+        return dofs, np.concatenate((np.broadcast_to(wheel, shape), -rail), axis=-1)
 
 
 @dataclass(frozen=True)
