@@ -187,6 +187,6 @@ def _draw_spectra(
         second = axes.secondary_xaxis(
             "top", functions=(lambda f: np.asarray(f) / base, lambda n: np.asarray(n) * base)
         )
-        second.set_xlabel(r"$n = f\,L_c/v$", parse_math=True)
+        second.set_xlabel("n = f L_c/v")
     figure_legend(figure, axes)
     return figure

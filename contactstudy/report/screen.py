@@ -12,6 +12,7 @@ import re
 from collections.abc import Mapping
 from pathlib import Path
 
+from contactstudy.plot.gif import DPI as GIF_DPI
 from contactstudy.plot.packed import packed
 from contactstudy.plot.panels import Panels
 from contactstudy.plot.style import PNG_DPI
@@ -19,6 +20,8 @@ from contactstudy.resources import resource
 
 LARGEST = 4.9e6
 """Bytes of the page."""
+LARGEST_ANIMATION = 1.5e6
+"""Bytes of an animation that stands in the page in its picture's place."""
 _SCRIPTS = ("bokeh.min.js", "bokeh-api.min.js")
 _PLACE = re.compile(r'<div data-figure="([^"]*)"></div>')
 _TOLD = (
@@ -62,15 +65,24 @@ def screen_page(text: str, figures: Mapping[str, Panels], out_dir: Path) -> str:
 
 
 def _picture(file: Path) -> str:
-    """An image of at most 256 colours, which a drawing does with."""
+    """An image of at most 256 colours, which a drawing does with, or its animation beside it."""
     from PIL import Image
 
+    animation = file.with_suffix(".gif")
+    if animation.is_file() and animation.stat().st_size <= LARGEST_ANIMATION:
+        with Image.open(animation) as picture:
+            width = round(picture.width * _CSS_INCH / GIF_DPI)
+        return _image("gif", animation.read_bytes(), width)
     stream = io.BytesIO()
     with Image.open(file.with_suffix(".png")) as picture:
         picture.convert("RGB").quantize(256).save(stream, "PNG", optimize=True)
         width = round(picture.width * _CSS_INCH / PNG_DPI)
-    data = base64.b64encode(stream.getvalue()).decode("ascii")
-    return f'<img class="picture" width="{width}" src="data:image/png;base64,{data}" alt="">'
+    return _image("png", stream.getvalue(), width)
+
+
+def _image(kind: str, content: bytes, width: int) -> str:
+    data = base64.b64encode(content).decode("ascii")
+    return f'<img class="picture" width="{width}" src="data:image/{kind};base64,{data}" alt="">'
 
 
 def _bokeh(name: str) -> str:

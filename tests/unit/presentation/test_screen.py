@@ -1,5 +1,6 @@
 """The report for the screen: one file, the report's text, figures that are zoomed and read."""
 
+import base64
 import html
 import re
 import time
@@ -7,13 +8,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from PIL import Image
 
 from contactstudy.figures import all_drawings
 from contactstudy.plot.panels import panels_of
 from contactstudy.plot.style import figure_style, new_figure, save
 from contactstudy.report import write_report
 from contactstudy.report.content import content
-from contactstudy.report.screen import LARGEST
+from contactstudy.report.screen import LARGEST, LARGEST_ANIMATION, screen_page
 
 SHOWN = ("contact_force", "patch_pressure", "irregularity_spectrum", "passing_amplitudes")
 
@@ -193,6 +195,20 @@ def test_every_picture_is_one(opened):
     _, browser = opened
     sizes = browser.run("return [...document.images].map((image) => image.naturalWidth)")
     assert len(sizes) > 5 and min(sizes) > 0
+
+
+def test_an_animation_stands_in_its_pictures_place_unless_it_is_large(tmp_path):
+    with figure_style():
+        save(new_figure(1.0), tmp_path, "moving")
+    frames = [Image.new("RGB", (80, 40), colour) for colour in ("red", "blue")]
+    frames[0].save(tmp_path / "moving.gif", save_all=True, append_images=frames[1:])
+    text = '<head></head><body><div data-figure="moving.pdf"></div></body>'
+    page = screen_page(text, {}, tmp_path)
+    content = base64.b64encode((tmp_path / "moving.gif").read_bytes()).decode()
+    assert f"data:image/gif;base64,{content}" in page and "image/png" not in page
+    with (tmp_path / "moving.gif").open("ab") as file:
+        file.write(bytes(int(LARGEST_ANIMATION)))
+    assert "data:image/png" in screen_page(text, {}, tmp_path)
 
 
 def test_no_script_of_the_page_ends_early():

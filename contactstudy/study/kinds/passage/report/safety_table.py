@@ -17,10 +17,11 @@ from contactstudy.study.results import StudyResults
 
 _NOTE = (
     "In brackets the wheelset, counted from the front. As computed: all frequencies that the time "
-    "step lets through. Up to 20 Hz, and Y/Q outwards and ΣY as means over 2 m of it: as EN 14363 "
-    "takes them, but the largest value of this one passage instead of the percentile of many "
-    "sections of track. Limits of EN 14363: "
+    "step lets through. Up to 20 Hz{}: as EN 14363 takes them, but the largest value of this one "
+    "passage instead of the percentile of many sections of track. Unloading is up to 20 Hz too. "
+    "Limits of EN 14363: "
 )
+_LATERAL = ", and Y/Q outwards and ΣY as means over 2 m of it"
 
 
 def safety_table(results: StudyResults) -> list[Block]:
@@ -32,7 +33,7 @@ def safety_table(results: StudyResults) -> list[Block]:
     columns = ["Run", "Q, least (kN)", "largest (kN)", "up to 20 Hz (kN)", "Unloading (%)"]
     columns += ["Y (kN)", "Y/Q", "ΣY (kN)"] if lateral else []
     rows = [_row(results, name, one, lateral) for name, one in found.items()]
-    note = _NOTE + _limits(results, next(iter(found)), lateral)
+    note = _NOTE.format(_LATERAL if lateral else "") + _limits(results, next(iter(found)), lateral)
     return [table(columns, rows, "Wheel forces.", 1, note)]
 
 
