@@ -5,6 +5,7 @@ import pytest
 
 from contactstudy.exceptions import InputError
 from contactstudy.study.kinds.passage import build
+from contactstudy.study.kinds.passage.contact import hertz
 from contactstudy.study.kinds.passage.execution import execute_run
 from contactstudy.study.kinds.passage.forecast import needs
 from contactstudy.study.kinds.passage.reading import parse_study
@@ -134,6 +135,11 @@ def test_what_a_bridge_cannot_have_is_refused_at_once():
     refused("track.support: must be discrete supports", track={"support": "winkler"})
     refused('track.spans: applies only with structure = "bridge"', track={"structure": "ground"})
     refused("journey.to = 900.0: must be at most", journey=SLOW | {"to": 900.0})
+    refused(
+        "journey.time_step = 1e-06: must be at least",
+        track={"spans": "99 x 32 m"},
+        journey=SLOW | {"time_step": 1e-6},
+    )
 
 
 def test_backward_needs_a_bridge():
@@ -185,3 +191,30 @@ def test_the_shipped_study_is_forecast():
     assert len(made.track.structure.spans) == 10
     assert made.runs["backward"].travel == "backward"
     assert any("static wheel load" in str(one) for one in needs(made, [], None))
+
+
+def test_a_wheel_on_a_bridge_feels_the_mean_over_its_patch():
+    """Of a short wave sin(ka)/(ka), a being Hertz's semi-axis along the rail, in a linear run."""
+    runs = {"filtered": RUN | {"k_r": "hertz_tangent", "contact_filter": "patch"}}
+    made = parse_study(
+        "bridge",
+        {
+            "track": TRACK | {"spans": "8 m"},
+            "vehicle": {"type": "axle_loads", "axle_loads": ["13 t"]},
+            "irregularity": {"spectrum": "sinusoid", "wavelength": 0.03, "amplitude": 2e-6},
+            "journey": {"from": 13.0, "to": 15.0, "speed": 30.0, "time_step": 4e-5, "fade_in": 0.5},
+            "runs": {"one": RUN | {"k_r": "hertz_tangent"}, **runs},
+        },
+    )
+    one, filtered = (
+        execute_run(made, name).contact_force[0].values[600:] for name in ("one", "filtered")
+    )
+    smooth = execute_run(
+        parse_study("bridge", made.config() | {"irregularity": {"spectrum": "smooth"}}), "one"
+    )
+    rest = smooth.contact_force[0].values[600:]
+    ka = 2 * np.pi / 0.03 * hertz(made).semi_axis_x
+    np.testing.assert_allclose(
+        filtered - rest, np.sin(ka) / ka * (one - rest), atol=2e-3 * np.ptp(one - rest)
+    )
+    assert np.ptp(one - rest) > 1e3

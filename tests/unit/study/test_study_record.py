@@ -189,6 +189,8 @@ def test_times_that_fall_and_records_that_are_too_short(tmp_path, run):
         ("0,1,1\n2,1,1\n1,1,1\n3,1,1", "line 4: the time does not increase"),
         ("0,1,1\n1,1,1", "2 rows of numbers; allowed: 3 or more"),
         ("0,1,1\n1,x,1\n2,1,1", "line 3, column 'pad' is 'x'"),
+        ("0,1,1\n.1,1,2\n.2,1,3", "column 'pad' is 1 throughout; there is nothing to lay over"),
+        ("0,1,1\n10,2,2\n20,3,3", "samples are 10 s apart .* the run of 0.15 s needs 3 of them"),
     ):
         (tmp_path / "record.csv").write_text("t,pad,bay\n" + rows)
         with pytest.raises(InputError, match=message):

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -71,8 +70,11 @@ def parse_study(
             tables["solid"] = solid.fitting(tables["track"])
     fitting = "journey", "irregularity", "track", "vehicle"
     if set(fitting) <= tables.keys():
-        with suppress(InputError):  # complained about
+        try:
             tables["journey"] = fitted_journey(*(tables[key] for key in fitting))
+        except InputError as error:  # of the others is complained elsewhere
+            own = (p for p in error.problems if p.startswith("Journey."))
+            found += [p.replace("Journey.", "journey.") for p in own]
     runs, wrong = _runs(data.get("runs", {}))
     texts, wrong_texts = read_texts(data)
     compare, wrong_compare = _compare(data, list(data["runs"]) if runs else [])

@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 
 _CHANNEL = re.compile(r"(?P<column>[^=]+?)\s*=\s*(?P<signal>\w+)(?:\s+at\s+(?P<at>.+))?")
 _FORM = 'must be like "COLUMN = SIGNAL" or "COLUMN = SIGNAL at 12.5 m"'
+_FEWEST = 3  # samples of a record, and of them within the run's time
 _SECONDS = {"s": 1.0, "ms": 1e-3, "us": 1e-6}
 
 
@@ -141,9 +142,15 @@ class MeasuredRecord(Parameters):
             record = self.read()
         except InputError as error:
             return problems + [f"measured.file: {problem}" for problem in error.problems]
+        duration = journey.n_steps * journey.time_step
+        step = float(np.median(np.diff(record.time)))
+        if duration < _FEWEST * step:
+            problems.append(
+                f"measured.file: {self.file}: its samples are {step:g} s apart (measured.time_unit"
+                f" or measured.rate); the run of {duration:.4g} s needs {_FEWEST} of them at least"
+            )
         if self.shift != "fitted":
             first, last = record.time[0] + self.shift, record.time[-1] + self.shift
-            duration = journey.n_steps * journey.time_step
             if first >= duration or last <= 0.0:
                 problems.append(
                     f"measured.shift = {self.shift:g} s: the record then goes from {first:.4g} to "
@@ -168,13 +175,20 @@ def _read(own: MeasuredRecord, changed: int) -> Record:
     columns = [channel.column for channel in own.parsed]
     named = [own.time_column] if own.time_column else []
     table, lines, problems = read_numbers(Path(own.file), [*named, *columns])
-    if len(table) < 3:
+    if len(table) < _FEWEST:
         problems.append(f"{own.file}: {len(table)} rows of numbers; allowed: 3 or more")
     time = np.arange(len(table)) / own.rate if own.rate else table[:, 0]
     time = time * _SECONDS[own.time_unit]
     if not problems and np.any(falls := np.diff(time) <= 0.0):
         line = lines[1:][falls][0]
         problems.append(f"{own.file}, line {line}: the time does not increase")
+    if not problems:
+        problems += [
+            f"{own.file}, column '{column}' is {values[0]:g} throughout; there is nothing to lay "
+            "over a computed signal"
+            for column, values in zip(columns, table[:, len(named) :].T, strict=True)
+            if np.ptp(values) == 0.0
+        ]
     if problems:
         raise InputError(problems)
     factors = [factor(own.unit, channel.unit) for channel in own.parsed]
