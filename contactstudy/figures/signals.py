@@ -39,6 +39,10 @@ SIGNALS = (
     Signal("rail_displacement", "Rail displacement at the wheel", "Displacement", "mm", 1e3),
     Signal("rail_acceleration", "Rail acceleration under the wheel", "Acceleration", "m/s²", 1.0),
 )
+DECK = (
+    Signal("deck_displacement", "Deck displacement", "Displacement", "mm", 1e3),
+    Signal("deck_acceleration", "Deck acceleration", "Acceleration", "m/s²", 1.0),
+)
 
 
 def styles(results: StudyResults) -> dict[str, LineStyle]:

@@ -124,6 +124,9 @@ def test_what_a_bridge_cannot_have_is_refused_at_once():
         two={"solver": "surface"},
     )
     assert "runs.two.solver" in found  # and one wheel
+    press = "runs.one: needs the static press of a meshed rail; the rails of a bridge are beams"
+    refused(press, run={"k_r": "tangent"})
+    refused(press, base={"solver": "point", "law": "press"})
     refused("track.spans.1 = ", "must be above 0", track={"spans": ["8 m", "-3 m"]})
     refused("track.spans_per_deck = [2]: must add up to the 3 spans", track={"spans_per_deck": 2})
     refused("track.deck_area", 'applies only with deck = "given"', track={"deck_area": 3.0})

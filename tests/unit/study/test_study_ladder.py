@@ -33,6 +33,22 @@ def test_each_rung_is_compared_with_the_run_above_it():
     np.testing.assert_allclose(steps, [0.1, 1.0], rtol=1e-12)
 
 
+def test_decks_are_compared_over_all_their_stations():
+    """A gain of 10 % at one station and none at another of twice its size; one beside the deck."""
+    wave = np.sin(2 * np.pi * np.linspace(0.0, 5.0, 2001))
+    nothing = np.full_like(wave, np.nan)
+    made = {
+        name: run_of(wave + 5.0).assign(
+            deck_displacement=(("station", "time"), [nothing, gain * wave, 2.0 * wave]),
+            deck_displacement_smooth=(("station", "time"), [nothing, 0.0 * wave, 2.0 * wave]),
+        )
+        for name, gain in (("top", 1.0), ("low", 1.1))
+    }
+    found = rungs(made, 0.0)["low"]["deck_displacement"]
+    assert found["relative_l2"] == pytest.approx(0.1 / np.sqrt(5.0))
+    assert found["relative_l2_irregularity"] == pytest.approx(0.1)
+
+
 def test_sentences_of_a_ladder_follow_from_its_numbers():
     runs = made_ladder({"top": 10.0, "near": 10.1, "far": 15.0, "back": 12.0})
     top = {

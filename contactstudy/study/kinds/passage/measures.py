@@ -28,7 +28,7 @@ from contactstudy.study.axes.measured import Measured, measured
 from contactstudy.study.kinds.passage.impacts import closed_forms, impacts
 from contactstudy.study.kinds.passage.metrics import behind, compare_runs, parts_of
 from contactstudy.study.kinds.passage.schema import Study
-from contactstudy.study.kinds.passage.twins import SMOOTH, SOFTER, with_twins
+from contactstudy.study.kinds.passage.twins import OF_DECK, SMOOTH, SOFTER, with_twins
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -43,7 +43,6 @@ _ERRORS = {
     "correlation": ("Pearson's correlation with the reference", _RUN),
     "sprague_geers": ("errors of Sprague and Geers", [*_RUN, "part", "measure"]),
 }
-_DECK = ("deck_displacement", "deck_acceleration")
 _OWN = {
     "static": (f"value at rest, {_UNIT}", _RUN),
     "smallest": (f"smallest value behind the fade-in, {_UNIT}", _RUN),
@@ -107,7 +106,7 @@ def _by_part(entry: Mapping[str, Any], name: str) -> dict[str, Any]:
 def _own(run: xr.Dataset, start: float, of: Any) -> None:
     """Enter what a run's histories are by themselves."""
     x = position(run)
-    for signal in _DECK:
+    for signal in OF_DECK:
         if signal in run and np.isfinite(run[signal].values).any():
             of("largest_of_deck")[signal] = float(np.nanmax(np.abs(run[signal].values)))
     for name, variable in run.data_vars.items():

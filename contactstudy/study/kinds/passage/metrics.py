@@ -19,7 +19,8 @@
     measured:     with ``[measured]``, see `held_against`
     rungs.<name>: with ``compare.rungs``, the run ``above`` and the same norms against it
 
-Both signals are compared at equal wheel positions behind the fade-in, those of runs that travel the
+Signals are those of wheel and rail, and on a bridge `OF_DECK`.
+Both are compared at equal wheel positions behind the fade-in, those of runs that travel the
 reference's way; `contactstudy.compare.norms`
 defines the norms. ``linf`` and ``rms`` are in the signal's SI unit. The dynamic part is what is
 left of a signal when its own value in the static start is taken off; the irregularity's part,
@@ -46,7 +47,7 @@ from contactstudy.study.kinds.passage.comfort import comfort_of
 from contactstudy.study.kinds.passage.held_against import held_against
 from contactstudy.study.kinds.passage.safety import safety_of
 from contactstudy.study.kinds.passage.schema import Study
-from contactstudy.study.kinds.passage.twins import SIGNALS, SMOOTH, SOFTER
+from contactstudy.study.kinds.passage.twins import OF_DECK, SIGNALS, SMOOTH, SOFTER
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -163,17 +164,17 @@ def compare_runs(
     """
     return {
         name: _compare_signals(run, reference, name, start, bands)
-        for name in SIGNALS
+        for name in (*SIGNALS, *OF_DECK)
         if name in run and name in reference
     }
 
 
 def parts_of(run: xr.Dataset, name: str) -> dict[str, Array]:
     """A signal without its static value, and without that of the run's twin if it has one."""
-    values = np.asarray(run[name].values)
+    values = _histories(run, name)
     parts = {"dynamic": norms.dynamic_part(values, values[..., 0])}
     if name + SMOOTH in run:
-        parts["irregularity"] = values - run[name + SMOOTH].values
+        parts["irregularity"] = values - _histories(run, name + SMOOTH)
     return parts
 
 
@@ -182,10 +183,10 @@ def _compare_signals(
 ) -> Any:
     x_run, x_reference = position(run), position(reference)
     x = norms.common_positions(x_run, x_reference, start)
-    a = norms.at_positions(run[name].values, x_run, x)
+    a = norms.at_positions(_histories(run, name), x_run, x)
     if name in WITHOUT_STATIC:
         a = norms.dynamic_part(a, at_rest(run, name) - at_rest(reference, name))
-    b = norms.at_positions(reference[name].values, x_reference, x)
+    b = norms.at_positions(_histories(reference, name), x_reference, x)
     made: dict[str, Any] = {
         "relative_l2": _number(norms.relative_l2(a, b, x)),
         "linf": _number(norms.linf(a, b)),
@@ -215,6 +216,12 @@ def _compare_signals(
             "relative_l2_dynamic": _number(norms.relative_l2(*pair, x)),
         }
     return made
+
+
+def _histories(run: xr.Dataset, name: str) -> Array:
+    """A signal's values (..., time), of decks without the stations beside them."""
+    values = np.asarray(run[name].values)
+    return values[np.isfinite(values).any(axis=-1)] if "station" in run[name].dims else values
 
 
 def _sprague_geers(a: Any, b: Any, x: Array) -> dict[str, float | None]:

@@ -65,6 +65,12 @@ def problems_of_runs(
         if not isinstance(run, PointRun) or run.needs_solid:
             yield f"runs.{name}: needs a meshed rail; the rails of a bridge are beams"
             continue
+        if run.presses:
+            yield (
+                f"runs.{name}: needs the static press of a meshed rail; the rails of a bridge are "
+                'beams: use k_r in N/m or "hertz_tangent", or law = "hertz" with '
+                'hertz_constant = "closed_form"'
+            )
         if run.rigid and planar and not vehicle.planar:
             allowed = "must give way on a planar bridge, where both wheels of a wheelset are one"
             yield complaint(f"runs.{name}.k_r", run.k_r, allowed)

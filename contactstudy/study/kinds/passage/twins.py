@@ -25,6 +25,8 @@ SIGNALS = (
     "rail_acceleration",
 )  # fmt: skip
 """Histories that are compared."""
+OF_DECK = ("deck_displacement", "deck_acceleration")
+"""Compared too, over all stations on decks together."""
 SMOOTH, SOFTER = "_smooth", "_softer"
 """What the names of a twin's histories end with."""
 _SMOOTH_TWIN, _SOFTER_TWIN = ".smooth", ".softer"  # no run's name has a dot
@@ -103,11 +105,11 @@ def _softer(k_r: float | str, part: float) -> Any:
 def with_twins(study: Study, found: Mapping[str, xr.Dataset]) -> dict[str, xr.Dataset]:
     """Runs of the finished pieces of work, with the histories of their twins beside their own."""
     own, softer = twins(study), softer_twins(study)
-    made = {}
+    made, named = {}, (*SIGNALS, *OF_DECK)
     for name in study.runs:
         run = found[name]
         if name in own:
-            run = run.assign(_histories(run, found[own[name]], SIGNALS, SMOOTH, "on a smooth rail"))
+            run = run.assign(_histories(run, found[own[name]], named, SMOOTH, "on a smooth rail"))
         if name in softer:
             part = 1.0 - study.softer
             text = f"with {part:g} of its k_r"

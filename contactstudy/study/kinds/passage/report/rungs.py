@@ -6,7 +6,7 @@ from itertools import pairwise
 from contactstudy.compare.bands import share_above
 from contactstudy.compare.signals import values
 from contactstudy.figures.ladder import DYNAMIC, IRREGULARITY, PARTS, Rung, ladder
-from contactstudy.figures.signals import SIGNALS, Signal
+from contactstudy.figures.signals import DECK, SIGNALS, Signal
 from contactstudy.plot.text import label
 from contactstudy.report.blocks import Block, table
 from contactstudy.report.quantity import rounded
@@ -14,6 +14,8 @@ from contactstudy.study.results import StudyResults
 
 _LARGE = 3.0
 """A step that exceeds the error of the rung above so many times is called decisive."""
+_WITH_DECK = ("contact_force", "wheel_acceleration")
+"""Signals that are shown beside those of decks; a page holds no more columns."""
 _FAST = 2e3
 """Where beams and meshes of the usual sizes part [Hz]."""
 
@@ -70,7 +72,9 @@ def _nearer(above: Rung, rung: Rung) -> bool:
 
 def rung_tables(results: StudyResults) -> list[Block]:
     """Error of every rung against the top, and against the rung above: parts of all signals."""
-    of_signals = {signal: ladder(results, signal.name) for signal in SIGNALS}
+    shown_of = (*(s for s in SIGNALS if s.name in _WITH_DECK), *DECK)
+    decked = any(DYNAMIC in rung.from_top for rung in ladder(results, DECK[0].name))
+    of_signals = {s: ladder(results, s.name) for s in (shown_of if decked else SIGNALS)}
     shown = [
         (signal, part)
         for signal, rungs in of_signals.items()
@@ -91,7 +95,9 @@ def rung_tables(results: StudyResults) -> list[Block]:
             caption = (
                 f"Relative L₂ difference from {words} in per cent; of motions the dynamic part."
             )
-            tables.append(table(columns, rows, caption, note=_fast(results) if tables else ""))
+            tables.append(
+                table(columns, rows, caption, note=_fast(results) if tables and not decked else "")
+            )
     return tables
 
 
