@@ -11,11 +11,11 @@ from matplotlib.figure import Figure
 
 from contactstudy.arrays import Array
 from contactstudy.compare.signals import position, values
-from contactstudy.figures.patch import whole_grid
 from contactstudy.files import writing
 from contactstudy.plot.gif import write_gif
 from contactstudy.plot.style import BLACK, VERMILION, figure_style, map_axes, new_figure
 from contactstudy.plot.text import exact, label
+from contactstudy.solvers.whole_patch import whole_grid
 from contactstudy.study.results import FIGURES, StudyResults
 
 _WIDTH, _HEIGHT = 6.0, 4.2  # inch

@@ -16,6 +16,7 @@ from contactstudy.figures.hertz_ellipse import HertzPatch, hertz_patch
 from contactstudy.plot.drawing import Drawing
 from contactstudy.plot.style import BLACK, VERMILION, map_axes, new_figure
 from contactstudy.plot.text import exact, label, number
+from contactstudy.solvers.whole_patch import whole_grid
 from contactstudy.study.results import StudyResults
 
 
@@ -110,23 +111,6 @@ def patches_of(results: StudyResults, *fields: str) -> dict[str, ShownPatch]:
         and {"instant", "point"} <= set(run["pressure"].dims)
     }
     return {name: patch for name, patch in found.items() if patch is not None}
-
-
-def whole_grid(
-    run: xr.Dataset, field: Array, at: tuple[str, str] = ("point_x", "point_y")
-) -> tuple[Array, Array, Array]:
-    """Grid lines (n,), (m,) in mm and a field (k, points) on them, (k, n, m).
-
-    Both halves of a symmetric model. `at` names the points' coordinates.
-    """
-    # positions of points come from their interpolation, equal but for rounding
-    x, y = (np.unique(np.round(np.asarray(run[name].values), 9)) for name in at)
-    grid = field.reshape(-1, len(x), len(y))
-    if run["point_y"].attrs.get("symmetric", y[0] >= -1e-9):
-        rest = 1 if y[0] < 1e-9 else 0  # points on the plane of symmetry have no mirror image
-        mirrored = grid[:, :, rest:][:, :, ::-1]
-        y, grid = np.r_[-y[rest:][::-1], y], np.concatenate([mirrored, grid], axis=2)
-    return x * 1e3, y * 1e3, grid
 
 
 def patch_of(run: xr.Dataset) -> ShownPatch | None:

@@ -9,17 +9,11 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch as Swatch
 
 from contactstudy.arrays import Array
-from contactstudy.figures.patch import (
-    ShownPatch,
-    Touching,
-    bilinear,
-    patches_of,
-    touching_of,
-    whole_grid,
-)
+from contactstudy.figures.patch import ShownPatch, Touching, bilinear, patches_of, touching_of
 from contactstudy.plot.drawing import Drawing
 from contactstudy.plot.style import BLACK, BLUE, SHADE, SKY, map_axes, new_figure
 from contactstudy.plot.text import exact, label, number
+from contactstudy.solvers.whole_patch import whole_grid
 from contactstudy.study.results import StudyResults
 
 _GAPS = (5.0, 10.0, 20.0, 50.0)  # µm

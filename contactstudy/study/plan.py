@@ -183,16 +183,15 @@ def refined_key(kind: Kind, variant: Planned, finest: Planned) -> str:
 
 def collect(plan: Plan, found: Mapping[Piece, Kept]) -> StudyResults:
     """Finished pieces of work of a study without axes, compared, with all that is reported."""
+    from contactstudy.study.tree import norms
+
     (variant,) = plan.variants.values()
     values = {name: found[piece].value for name, piece in variant.pieces.items()}
     costs = {name: found[piece].about for name, piece in variant.pieces.items()}
     runs = plan.kind.collect(variant.study, values)
-    return made_results(
-        plan,
-        runs=runs,
-        metrics=plan.kind.metrics(plan.study, runs, costs),
-        groups=plan.inputs.groups(),
-    )
+    metrics = plan.kind.metrics(plan.study, runs, costs)
+    groups = {**plan.inputs.groups(), **norms(metrics["comparisons"], runs)}
+    return made_results(plan, runs=runs, metrics=metrics, groups=groups)
 
 
 def made_results(

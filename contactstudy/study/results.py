@@ -31,6 +31,8 @@ from contactstudy.texts import json_text
 if TYPE_CHECKING:
     import xarray as xr
 
+    from contactstudy.study.tree import ResultTree
+
 RESULT_FILE = "result.nc"
 METRICS_FILE = "metrics.json"
 REPORT_FILE = "report.pdf"
@@ -91,9 +93,11 @@ class StudyResults:
         return found
 
     @property
-    def tree(self) -> xr.DataTree:
+    def tree(self) -> ResultTree:
         """Runs and other groups as one tree, the study's attributes at its root."""
         import xarray as xr
+
+        from contactstudy.study.tree import ResultTree
 
         attrs = {key: getattr(self, key) for key in _TEXTS} | {"Conventions": "CF-1.11"}
         for key in _JSON:
@@ -102,7 +106,7 @@ class StudyResults:
         attrs["companions"] = json.dumps([c.name for c in self.companions])
         attrs["reference"] = self.reference or ""
         parts = {name: netcdf_attributes(run) for name, run in self.runs.items()}
-        return xr.DataTree.from_dict({"/": xr.Dataset(attrs=attrs), **self.groups, **parts})
+        return ResultTree.from_dict({"/": xr.Dataset(attrs=attrs), **self.groups, **parts})
 
     def __repr__(self) -> str:
         return f"<results of the study {self.name}>\n{self.tree}"
@@ -127,8 +131,12 @@ def write_results(results: StudyResults, out_dir: Path) -> list[Path]:
     return files
 
 
-def open_results(out_dir: str | Path) -> xr.DataTree:
+def open_results(out_dir: str | Path) -> ResultTree:
     """The tree of a finished study: a node a run, the study's attributes at the root.
+
+    The node ``norms`` tells how far each run is from the reference. It is an `xarray.DataTree`,
+    which ``xarray.open_datatree`` makes of ``result.nc`` as well; a notebook shows the runs and
+    their norms above it.
 
     Parameters
     ----------
@@ -142,13 +150,16 @@ def open_results(out_dir: str | Path) -> xr.DataTree:
     """
     import xarray as xr
 
+    from contactstudy.study.tree import ResultTree
+
     if not isinstance(out_dir, str | Path):
         raise InputError(f"out_dir = {out_dir!r}: must be the folder of a study's results")
     path = Path(out_dir)
     try:
         file = path if path.is_file() else path / RESULT_FILE
         with xr.open_datatree(file, engine="h5netcdf") as tree:
-            return tree.load()
+            parts = {path: node.to_dataset(inherit=False) for path, node in tree.subtree_with_keys}
+            return ResultTree.from_dict(parts).load()
     except (OSError, ValueError, KeyError, RuntimeError) as error:
         raise _unreadable(path, error) from error
 

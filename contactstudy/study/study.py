@@ -12,6 +12,8 @@ from contactstudy.validation.base import check
 
 TEXTS = ("title", "description", "companions")
 """Keys that stand above all tables of a study file."""
+NORMS = "norms"
+"""Group of the results with how far each run is from the reference; so no run has this name."""
 
 
 @dataclass(frozen=True)

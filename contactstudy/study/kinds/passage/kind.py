@@ -72,7 +72,7 @@ class PassageKind(Kind):
     admit = later(f"{_HERE}.forecast:admit")
     histories = later(f"{_HERE}.twins:histories")
     before = later(f"{_HERE}.execution:condensing")
-    collect = later(f"{_HERE}.twins:with_twins")
+    collect = later(f"{_HERE}.twins:collect")
     metrics = later(f"{_HERE}.metrics:metrics")
     drawings = later(f"{_HERE}.drawings:drawings")
     draws_grid = later(f"{_HERE}.drawings:draws_grid")

@@ -19,6 +19,7 @@ from contactstudy.study.kinds.passage.runs import SOLVERS, PointRun, SurfaceRun
 from contactstudy.study.kinds.passage.scan import ScanFiles
 from contactstudy.study.kinds.passage.solid import Solid, spacing
 from contactstudy.study.kinds.passage.wheelset import WheelsetPosition
+from contactstudy.study.study import NORMS
 from contactstudy.track.model import Track
 from contactstudy.validation import (
     AtLeast,
@@ -224,7 +225,7 @@ def wrong_runs(names: Iterable[str]) -> list[str]:
                 f"runs.{name}: differs from the run {taken[name.lower()]} only in capitals, and "
                 "some disks do not tell such files apart; choose another name"
             )
-        elif name in (IRREGULARITY, MEASURED):
+        elif name in (IRREGULARITY, MEASURED, NORMS):
             problems.append(
                 f"runs.{name}: a run cannot be called '{name}', which names its own group"
             )

@@ -12,6 +12,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from contactstudy.solvers.dataset import POINT_SIGNALS, SECTION_SIGNALS, SURFACE_SIGNALS
+from contactstudy.solvers.whole_patch import with_maps
 from contactstudy.study.kinds.passage.on_bridge import vehicle_on
 from contactstudy.study.kinds.passage.runs import PointRun, SurfaceRun
 from contactstudy.study.kinds.passage.schema import Study
@@ -100,6 +101,11 @@ def _softer(k_r: float | str, part: float) -> Any:
         return part * k_r
     factor, name = multiple(k_r)
     return f"{part * factor!r} x {name}"
+
+
+def collect(study: Study, found: Mapping[str, xr.Dataset]) -> dict[str, xr.Dataset]:
+    """Runs as they are shown: with their twins' histories, fields of the patch also as maps."""
+    return {name: with_maps(run) for name, run in with_twins(study, found).items()}
 
 
 def with_twins(study: Study, found: Mapping[str, xr.Dataset]) -> dict[str, xr.Dataset]:
