@@ -10,20 +10,16 @@ shows the forces are found again if the law is missed by more than `TOLERANCE`.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from contactstudy.arrays import Array, IntArray
 from contactstudy.compiled import compiled
+from contactstudy.contact.point_gaps import PointContacts
 from contactstudy.dynamics.banded import Factor
 from contactstudy.dynamics.columns import Columns, LocalColumns
 from contactstudy.dynamics.rows import add_rows, row_values
 from contactstudy.dynamics.stepper import ContactStep
 from contactstudy.exceptions import NumericalError
-
-if TYPE_CHECKING:
-    from contactstudy.contact.point_coupling import PointCoupling
 
 FEWEST = 12
 """Contacts from which on one more banded solution costs less than adding up columns."""
@@ -37,12 +33,12 @@ _MOST = 50  # solutions
 
 
 class AttachedMany:
-    """A `PointCoupling` of many contacts on the system with the compliance scale * S^-1.
+    """Many contacts at points on the system with the compliance scale * S^-1.
 
     Between calls it keeps columns of S^-1, and no state of the contact.
     """
 
-    def __init__(self, coupling: PointCoupling, factor: Factor, scale: float) -> None:
+    def __init__(self, coupling: PointContacts, factor: Factor, scale: float) -> None:
         self._coupling, self._factor, self._scale = coupling, factor, scale
         self._columns = LocalColumns(factor, _MEMORY, CUT)
         self._exact: tuple[int, Array] | None = None

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from contactstudy.contact import many_contacts
+from contactstudy.contact.few_contacts import AttachedFew
 from contactstudy.contact.laws import HertzSpring, LinearSpring, MovingForce, RigidContact
 from contactstudy.contact.many_contacts import AttachedMany, nearby_compliance
-from contactstudy.contact.point_coupling import AttachedPoint
 from contactstudy.dynamics.banded import Factor
 from contactstudy.dynamics.columns import LocalColumns
 from contactstudy.irregularity import paper_spectrum, sample_profile
@@ -45,7 +45,7 @@ def test_forces_and_what_they_move_are_those_of_the_whole_solution(planar, law, 
     coupling, factor = point_coupling(made, law), factor_of(made, dt)
     u_free = np.random.default_rng(1).normal(scale=1e-4, size=made.n_dofs)
     u_free[-made.vehicle.n_dofs :] -= 2e-4
-    whole = AttachedPoint(coupling, factor, 1.0)(5, u_free, None)
+    whole = AttachedFew(coupling, factor, 1.0)(5, u_free, None)
     many = AttachedMany(coupling, factor, 1.0)(5, u_free, None)
     force = whole.record["contact_force"]
     np.testing.assert_allclose(
