@@ -1,6 +1,5 @@
 """Worn profiles of rail and wheel from CSV files."""
 
-import re
 from dataclasses import replace
 from pathlib import Path
 from typing import Literal
@@ -8,7 +7,6 @@ from typing import Literal
 import numpy as np
 
 from contactstudy.arrays import Array
-from contactstudy.csv_rows import finite_number, header_cells, listed, read_rows, shown_cell
 from contactstudy.exceptions import InputError
 from contactstudy.profiles.cloud import fit_cloud
 from contactstudy.profiles.curve import ProfileCurve
@@ -26,21 +24,16 @@ from contactstudy.profiles.outliers import (
     outliers,
 )
 from contactstudy.profiles.profile_file import SUFFIXES, FilePoints, read_points
+from contactstudy.profiles.worn_csv import points_of_csv
+from contactstudy.profiles.worn_faults import POINTS, wrong_extent, wrong_order
 
 Body = Literal["rail", "wheel"]
 
-UNITS = {"m": 1.0, "mm": 1e-3}
-POINTS = 20
-"""Fewest points of a profile."""
-WIDTHS = (0.02, 0.3)
-"""Narrowest and widest profile [m]: anything else has the wrong unit."""
 KNOTS = 0.7e-3
 """Least distance of a curve's knots [m]."""
 SPACINGS = (1.0, 1.07, 1.2, 1.4)
 """Distances of knots that are tried, over the least: where knots lie beside the joints of arcs is
 chance, and the curvature swings there."""
-LARGEST_GAP = 4e-3
-"""Longest stretch without a point [m]."""
 
 
 def worn_curve(
@@ -92,15 +85,15 @@ def worn_curve(
     if foreign:
         read, unit = read_points(file, body), "mm"
     else:
-        read, unit = _from_csv(file, unit, problems)
+        read, unit = points_of_csv(file, unit, problems)
     if foreign and ways == ("own", "own"):
         read = _turned(file, read, body)
     elif foreign:
         read = _with_tape_circle(file, replace(read, points=turned(read.points, ways)[0]), body)
     else:
         read = replace(read, points=turned(read.points, ways)[0])
-        problems += _order(file, read.points, read.lines)
-    problems += _extent(file, read.points, read.lines, unit)
+        problems += wrong_order(file, read.points, read.lines)
+    problems += wrong_extent(file, read.points, read.lines, unit)
     if problems:
         raise InputError(problems)
     shape = shape_of_wheel if body == "wheel" else shape_of_rail
@@ -114,19 +107,6 @@ def worn_curve(
             f"allowed: up to {1e6 * LARGEST_RESIDUAL:g} um"
         )
     return replace(curve, notes=(*notes, *curve.notes))
-
-
-def _from_csv(file: Path, unit: str | None, problems: list[str]) -> tuple[FilePoints, str]:
-    """Points [m] of a CSV file, and the unit that it states; adds what is wrong with them."""
-    rows = read_rows(file)
-    header = header_cells(file, rows)
-    index, stated, wrong = _columns(file, rows[0][0], header, unit)
-    if wrong:
-        raise InputError(wrong)
-    points, lines, faults = _points(rows[1:], index, header)
-    points *= UNITS[stated]
-    problems += listed(file, faults)
-    return FilePoints(points, lines, []), stated
 
 
 def _turned(file: Path, read: FilePoints, body: Body) -> FilePoints:
@@ -191,97 +171,3 @@ def fitted_curve(
     down = np.array([0.0, float(fit.spline(s)[1])])
     told = doubted(name, fit.scatter, len(points), fit.length, len(fit.knots))
     return replace(fit.curve(down, body == "rail", name), notes=(told,) if told else ())
-
-
-def _columns(
-    path: Path, line: int, header: list[str], unit: str | None
-) -> tuple[list[int], str, list[str]]:
-    """Places of the columns y and z, the unit, and what is wrong with the header."""
-    problems, index, units = [], [], {unit} - {None}
-    for name in ("y", "z"):
-        found = [
-            (k, match.group(1))
-            for k, cell in enumerate(header)
-            if (match := re.fullmatch(rf"{name}\s*(?:[\[(_ ]\s*([^\])\s]+)\s*[\])]?)?", cell))
-        ]
-        if len(found) != 1:
-            problems.append(
-                f"{path}, line {line}: there is {'no' if not found else 'more than one'} column "
-                f"'{name}'; the file has: {', '.join(header)}"
-            )
-            continue
-        index.append(found[0][0])
-        units |= {found[0][1]} - {None}
-    if len(units) != 1 or not units <= set(UNITS):
-        given = " and ".join(f"'{u}'" for u in sorted(str(u) for u in units)) or "not stated"
-        problems.append(
-            f"{path}: the unit of y and z is {given}; allowed: mm or m, in the header as "
-            "'y [mm],z [mm]' or beside the file's name"
-        )
-    return index, str(next(iter(units), "")), problems
-
-
-def _points(
-    rows: list[tuple[int, list[str]]], index: list[int], header: list[str]
-) -> tuple[Array, list[int], list[str]]:
-    """Points (n, 2) with their line numbers, and the cells that are no numbers."""
-    points, lines, faults = [], [], []
-    for line, cells in rows:
-        values = []
-        for k in index:
-            cell = cells[k].strip() if k < len(cells) else ""
-            value = finite_number(cell)
-            if value is None:
-                shown = shown_cell(cell)
-                faults.append(
-                    f"line {line}, column '{header[k]}' is {shown}; allowed: finite numbers"
-                )
-            else:
-                values.append(value)
-        if len(values) == 2:
-            points.append(values)
-            lines.append(line)
-    return np.array(points, dtype=float).reshape(-1, 2), lines, faults
-
-
-def _order(path: Path, points: Array, lines: list[int]) -> list[str]:
-    """Points that repeat or go back on the walk, which may lead either way."""
-    y = points[:, 0]
-    steps = np.diff(y)
-    if not len(steps):
-        return []
-    if np.median(steps) < 0:
-        steps = -steps
-    faults = [
-        f"line {lines[k + 1]}: y = {1e3 * y[k + 1]:g} mm "
-        + ("repeats" if steps[k] == 0 else "goes back behind")
-        + f" line {lines[k]} ({1e3 * y[k]:g} mm); allowed: y grows, or falls, all the way"
-        for k in np.flatnonzero(steps <= 0)
-    ]
-    return listed(path, faults)
-
-
-def _extent(path: Path, points: Array, lines: list[int], unit: str) -> list[str]:
-    """Too few points, gaps between them, an impossible width, no point at y = 0."""
-    if len(points) < POINTS:
-        return [f"{path}: {len(points)} points; allowed: {POINTS} or more"]
-    problems = []
-    low, high = float(points[:, 0].min()), float(points[:, 0].max())
-    if not WIDTHS[0] <= high - low <= WIDTHS[1]:
-        problems.append(
-            f"{path}: the profile is {1e3 * (high - low):.4g} mm wide with y in {unit}; allowed: "
-            f"{1e3 * WIDTHS[0]:g} to {1e3 * WIDTHS[1]:g} mm (is the unit right?)"
-        )
-        return problems
-    if not low < 0.0 < high:
-        problems.append(
-            f"{path}: y goes from {1e3 * low:.4g} to {1e3 * high:.4g} mm; allowed: from below to "
-            "above 0, the rail's middle plane or the wheel's tape circle"
-        )
-    chords = np.linalg.norm(np.diff(points, axis=0), axis=1)
-    faults = [
-        f"between lines {lines[k]} and {lines[k + 1]}: {1e3 * chords[k]:.3g} mm without a point; "
-        f"allowed: at most {1e3 * LARGEST_GAP:g} mm"
-        for k in np.flatnonzero(chords > LARGEST_GAP)
-    ]
-    return problems + listed(path, faults)

@@ -4,6 +4,7 @@ from contactstudy.validation import Variants
 from contactstudy.vehicle.axles import AxleLoads, FreightWagons, HighSpeedLoadModel
 from contactstudy.vehicle.car import Car
 from contactstudy.vehicle.consist import Bogie, Train
+from contactstudy.vehicle.derived import train, turned, with_wheel_modes
 from contactstudy.vehicle.lumped import (
     GRAVITY,
     BareWheel,
@@ -11,7 +12,7 @@ from contactstudy.vehicle.lumped import (
     bare_wheel,
     wheel_column,
 )
-from contactstudy.vehicle.model import Vehicle, train, turned, with_wheel_modes
+from contactstudy.vehicle.model import Vehicle
 
 VehicleTable = (
     WheelColumn | BareWheel | Bogie | Train | AxleLoads | HighSpeedLoadModel | FreightWagons

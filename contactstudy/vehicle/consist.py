@@ -10,7 +10,8 @@ from typing import Annotated, Any
 from contactstudy.exceptions import InputError
 from contactstudy.validation import File, Naming, Parameters, Unit, Written, complaint, listed
 from contactstudy.vehicle.car import Car
-from contactstudy.vehicle.model import Vehicle, train
+from contactstudy.vehicle.derived import train
+from contactstudy.vehicle.model import Vehicle
 from contactstudy.vehicle.suspended import CarModel, bogie_vehicle, car_vehicle, wheelset_positions
 from contactstudy.vehicle.vehicle_file import read_car
 

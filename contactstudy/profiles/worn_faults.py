@@ -1,0 +1,58 @@
+"""What is wrong with the points of a worn profile."""
+
+from pathlib import Path
+
+import numpy as np
+
+from contactstudy.arrays import Array
+from contactstudy.csv_rows import listed
+
+POINTS = 20
+"""Fewest points of a profile."""
+WIDTHS = (0.02, 0.3)
+"""Narrowest and widest profile [m]: anything else has the wrong unit."""
+LARGEST_GAP = 4e-3
+"""Longest stretch without a point [m]."""
+
+
+def wrong_order(path: Path, points: Array, lines: list[int]) -> list[str]:
+    """Points that repeat or go back on the walk, which may lead either way."""
+    y = points[:, 0]
+    steps = np.diff(y)
+    if not len(steps):
+        return []
+    if np.median(steps) < 0:
+        steps = -steps
+    faults = [
+        f"line {lines[k + 1]}: y = {1e3 * y[k + 1]:g} mm "
+        + ("repeats" if steps[k] == 0 else "goes back behind")
+        + f" line {lines[k]} ({1e3 * y[k]:g} mm); allowed: y grows, or falls, all the way"
+        for k in np.flatnonzero(steps <= 0)
+    ]
+    return listed(path, faults)
+
+
+def wrong_extent(path: Path, points: Array, lines: list[int], unit: str) -> list[str]:
+    """Too few points, gaps between them, an impossible width, no point at y = 0."""
+    if len(points) < POINTS:
+        return [f"{path}: {len(points)} points; allowed: {POINTS} or more"]
+    problems = []
+    low, high = float(points[:, 0].min()), float(points[:, 0].max())
+    if not WIDTHS[0] <= high - low <= WIDTHS[1]:
+        problems.append(
+            f"{path}: the profile is {1e3 * (high - low):.4g} mm wide with y in {unit}; allowed: "
+            f"{1e3 * WIDTHS[0]:g} to {1e3 * WIDTHS[1]:g} mm (is the unit right?)"
+        )
+        return problems
+    if not low < 0.0 < high:
+        problems.append(
+            f"{path}: y goes from {1e3 * low:.4g} to {1e3 * high:.4g} mm; allowed: from below to "
+            "above 0, the rail's middle plane or the wheel's tape circle"
+        )
+    chords = np.linalg.norm(np.diff(points, axis=0), axis=1)
+    faults = [
+        f"between lines {lines[k]} and {lines[k + 1]}: {1e3 * chords[k]:.3g} mm without a point; "
+        f"allowed: at most {1e3 * LARGEST_GAP:g} mm"
+        for k in np.flatnonzero(chords > LARGEST_GAP)
+    ]
+    return problems + listed(path, faults)
