@@ -49,9 +49,12 @@ class PointGaps:
     def joined(self, rail_dofs: IntArray, rail: Array) -> tuple[IntArray, Array]:
         """Those of B from the rail's (..., nc, k): the wheels' less the rail's."""
         # B = (1, -N)
-        (wheel_dofs, wheel), shape = self.wheels, (*rail.shape[:-1], self.wheels[0].shape[-1])
-        dofs = np.concatenate((np.broadcast_to(wheel_dofs, shape), rail_dofs), axis=-1)
-        return dofs, np.concatenate((np.broadcast_to(wheel, shape), -rail), axis=-1)
+        wheel_dofs, wheel = self.wheels
+        if rail.ndim > wheel.ndim:  # of several steps
+            shape = *rail.shape[:-1], wheel.shape[-1]
+            wheel_dofs, wheel = np.broadcast_to(wheel_dofs, shape), np.broadcast_to(wheel, shape)
+        dofs = np.concatenate((wheel_dofs, rail_dofs), axis=-1)
+        return dofs, np.concatenate((wheel, -rail), axis=-1)
 
 
 class PointContacts(Protocol):
