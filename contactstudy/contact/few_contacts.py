@@ -42,5 +42,5 @@ class AttachedFew:
         add_rows(dofs, weights, force, load)
         columns = self._columns.at(dofs)
         add_columns(columns, dofs, weights, self._scale * force, increment)
-        residual = -gaps.compliance[step] * force
+        residual = -gaps.deflection[step] * force
         return ContactStep(load, increment, {"contact_force": force, "rail_residual": residual})

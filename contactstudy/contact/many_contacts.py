@@ -90,7 +90,8 @@ class AttachedMany:
             # what W leaves out of the gaps that these forces make
             before, far = far, moved - W @ force
             if np.abs(far - before).max() <= TOLERANCE * np.abs(moved).max():
-                record = {"contact_force": force, "rail_residual": -local * force}
+                residual = -gaps.deflection[step] * force
+                record = {"contact_force": force, "rail_residual": residual}
                 return ContactStep(load, increment, record)
             if not np.all(np.isfinite(force)):
                 break

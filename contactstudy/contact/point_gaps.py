@@ -32,6 +32,9 @@ class PointGaps:
         From the step to dofs and weights (nc, k) of the rail's row N.
     compliance : ndarray (n_times, nc)
         c [m/N]. Two wheels within one element do not share it: each feels its own.
+    deflection : ndarray (n_times, nc)
+        What the dofs leave out of the deflection of the rail's centre line [m/N], for the record.
+        On a beam it is c.
     shape : ndarray (n_times, nc, m)
         Of the profile under each wheel, for the laws of `contact.patch_laws` [m]; else m = 0.
     """
@@ -39,6 +42,7 @@ class PointGaps:
     wheels: tuple[IntArray, Array]
     rail: Callable[[int], tuple[IntArray, Array]]
     compliance: Array
+    deflection: Array
     irregularity: Array
     shape: Array
 

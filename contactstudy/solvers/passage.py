@@ -17,7 +17,7 @@ from contactstudy.irregularity.fade import SharedProfile
 from contactstudy.irregularity.mirrored import mirrored
 from contactstudy.irregularity.rails import RailProfiles
 from contactstudy.solvers.journey import Journey
-from contactstudy.solvers.travelling import TravellingRows
+from contactstudy.solvers.travelling import TravellingRows, UnderWheels
 from contactstudy.track.discrete import DiscreteTrack
 from contactstudy.track.rail import Direction
 from contactstudy.vehicle import Vehicle, turned
@@ -113,7 +113,11 @@ class Passage(Generic[T]):
     @cached_property
     def rail_rows(self) -> TravellingRows:
         """Rows of the rail under each contact."""
-        return TravellingRows(self.track, self.positions, self.rails, self.directions)
+        return self.rows_of(self.track)
+
+    def rows_of(self, under: UnderWheels) -> TravellingRows:
+        """Rows of what is under each contact."""
+        return TravellingRows(under, self.positions, self.rails, self.directions)
 
     @cached_property
     def roughness(self) -> Array:

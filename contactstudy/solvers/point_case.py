@@ -26,8 +26,10 @@ from contactstudy.solvers.observers import Observer
 from contactstudy.solvers.passage import Passage
 from contactstudy.solvers.point_described import described_law, described_rail
 from contactstudy.track.beam import BeamTrack
+from contactstudy.track.crown import Crown
 from contactstudy.track.discrete import DiscreteTrack, not_discrete
 from contactstudy.track.model import Direction, Track
+from contactstudy.track.solid import SolidTrack
 from contactstudy.track.structure import StructureTrack
 from contactstudy.validation import positive, raise_if
 from contactstudy.vehicle import Vehicle
@@ -108,10 +110,11 @@ class ReadyCase:
     def for_lanes(self) -> bool:
         """Whether it is stepped in lanes: few contacts in one direction, a beam's narrow band.
 
-        What is seen of a structure, or by observers, takes all states.
+        What is seen of a structure or a meshed rail, or by observers, takes all states.
         """
         track, lateral = self.passage.track, self.coupling.lateral
-        if self.case.observers or lateral is not None or isinstance(track, StructureTrack):
+        by_states = isinstance(track, StructureTrack | SolidTrack)
+        if self.case.observers or lateral is not None or by_states:
             return False
         rows, columns = track.stiffness.nonzero()
         few = len(self.coupling.static_loads) < FEWEST
@@ -163,12 +166,19 @@ def point_coupling(
         felt, along = passage.seen(law)
     else:
         felt, along = passage.felt(contact_filter), np.zeros((*shape, 0))
-    # a spring gives back no more than it stands for
+    # a spring gives back no more than it stands for: a stiff one presses on the centre line
     top = np.maximum(track.top_load_compliance(x), -law.softness)
+    rows, compliance = passage.rail_rows, track.local_compliance(x) + top
+    deflection = compliance
+    if isinstance(track, SolidTrack) and law.softness > 0.0:
+        crown = Crown(track)
+        if (given := crown.compliance(x)).min() >= -law.softness:
+            rows, compliance, deflection = passage.rows_of(crown), given, crown.residual(x)
     gaps = PointGaps(
         _wheel_rows(passage, wheel),
-        passage.rail_rows.at,
-        (track.local_compliance(x) + top).reshape(shape),
+        rows.at,
+        compliance.reshape(shape),
+        deflection.reshape(shape),
         felt,
         along,
     )

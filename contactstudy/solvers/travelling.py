@@ -1,7 +1,7 @@
 """The rails' rows under contacts that travel along a track."""
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Protocol
 
 import numpy as np
 
@@ -10,6 +10,13 @@ from contactstudy.track.rail import Direction
 
 _AT_ONCE = 400_000
 """Weights that are made and kept at a time: for many wheels far fewer than all of a run."""
+
+
+class UnderWheels(Protocol):
+    """A track, or a part of it, that says what a wheel feels, see `DiscreteTrack`."""
+
+    def contact_rows(self, x: Array, rail: int, direction: Direction) -> tuple[IntArray, Array]:
+        """Dofs and weights (m, k) under a wheel at X (m,) [m]."""
 
 
 class TravellingRows:
@@ -31,7 +38,11 @@ class TravellingRows:
     """
 
     def __init__(
-        self, track: Any, positions: Array, rails: IntArray, directions: Sequence[Direction]
+        self,
+        track: UnderWheels,
+        positions: Array,
+        rails: IntArray,
+        directions: Sequence[Direction],
     ) -> None:
         self._track, self._positions = track, positions
         kinds = list(zip(rails.tolist(), directions, strict=True))

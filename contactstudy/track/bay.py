@@ -14,8 +14,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-
 from contactstudy.arrays import Array
 from contactstudy.dynamics.banded import Factor
 from contactstudy.solids.bodies import rail_body
@@ -25,7 +23,7 @@ from contactstudy.track.beam import BeamTrack, RailTheory
 from contactstudy.track.discrete import DiscreteTrack
 from contactstudy.track.model import Track
 from contactstudy.track.solid import SolidTrack
-from contactstudy.track.top_load import bay_planes, even_over_bay
+from contactstudy.track.top_load import bay_planes, even_over_bay, static_flexibility
 
 
 @dataclass(frozen=True)
@@ -77,9 +75,5 @@ def corrected_beam(recipe: BayRecipe) -> BeamTrack:
 
 def _under_wheel(track: DiscreteTrack, x: Array) -> Array:
     """Static flexibility (m,) under a wheel at X (m,), but for what its spring stands for [m/N]."""
-    factor, found = Factor(track.stiffness), np.empty(len(x))
-    for k, (dofs, weights) in enumerate(zip(*track.rail_rows(x), strict=True)):
-        row = np.zeros(factor.n)
-        np.add.at(row, dofs, weights)
-        found[k] = row @ factor.solve(row)
+    found = static_flexibility(Factor(track.stiffness), track.rail_rows(x))
     return found + track.local_compliance(x) + track.top_load_compliance(x)

@@ -107,8 +107,15 @@ class SolidTrack(AssembledMesh):
 
     def rail_rows(self, x: Array) -> tuple[IntArray, Array]:
         """See `DiscreteTrack`."""
+        return self._rows(self.cell.centre_map[:, 0], x)
+
+    def crown_rows(self, x: Array) -> tuple[IntArray, Array]:
+        """The same of the running surface at the crown."""
+        return self._rows(self.cell.surface_map[:, np.abs(self.surface_arc).argmin()], x)
+
+    def _rows(self, rows: Array, x: Array) -> tuple[IntArray, Array]:
+        """Dofs and weights (m, k) at X (m,) of what has a row of a cell (ns + 1, nd) a plane."""
         cell, slices, t = self._chain.locate(x)
-        rows = self.cell.centre_map[:, 0]
         weights = (1 - t)[:, None] * rows[slices] + t[:, None] * rows[slices + 1]
         first = cell * self._chain.step
         dofs = self._dof_of_bare[first[:, None] + np.arange(weights.shape[1])]

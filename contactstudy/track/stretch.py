@@ -53,6 +53,10 @@ class RailStretch:
     centre_map: Array
     centre_residual: Array
 
+    def crown_node(self, x: float) -> int:
+        """The node next to the crown at X [m]."""
+        return int(np.abs(self.x - x).argmin() * len(self.y) + np.abs(self.arc).argmin())
+
     def centre_motion(
         self, u_free: Array, increment: Array, nodal: Array
     ) -> dict[str, Array | float]:

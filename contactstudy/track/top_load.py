@@ -22,7 +22,7 @@ from typing import cast
 
 import numpy as np
 
-from contactstudy.arrays import Array
+from contactstudy.arrays import Array, IntArray
 from contactstudy.dynamics.banded import Factor
 from contactstudy.track.discrete import AssembledTrack
 from contactstudy.track.meshed import MeshedTrack
@@ -73,14 +73,28 @@ def bay_planes(track: Track, thickness: float) -> Array:
 
 def even_over_bay(track: Track, distance: Array, values: Array) -> Callable[[Array], Array]:
     """Function of X from values at distances (k,) from mid-bay [m], the same in all bays."""
+    return repeated(track.middle, track.bay_length, distance, values)
+
+
+def repeated(
+    middle: float, period: float, distance: Array, values: Array
+) -> Callable[[Array], Array]:
+    """Periodic function of X, even about a middle, from values at distances (k,) from it [m]."""
     from scipy.interpolate import CubicSpline
 
-    bay = track.bay_length
     knots, first = np.unique(np.r_[-distance, distance].round(12), return_index=True)
-    spline = CubicSpline(knots, np.r_[values, values][first])
-    return lambda x: np.asarray(
-        spline(np.mod(np.asarray(x) - track.middle + 0.5 * bay, bay) - 0.5 * bay)
-    )
+    spline, half = CubicSpline(knots, np.r_[values, values][first]), 0.5 * period
+    return lambda x: np.asarray(spline(np.mod(np.asarray(x) - middle + half, period) - half))
+
+
+def static_flexibility(factor: Factor, rows: tuple[IntArray, Array]) -> Array:
+    """Displacement (m,) of rows, dofs and weights (m, k), under a unit load on each [m/N]."""
+    found = np.empty(len(rows[0]))
+    for k, (dofs, weights) in enumerate(zip(*rows, strict=True)):
+        row = np.zeros(factor.n)
+        np.add.at(row, dofs, weights)
+        found[k] = row @ factor.solve(row)
+    return found
 
 
 def _pair(track: MeshedTrack, factor: Factor, x: float) -> float:
@@ -92,6 +106,6 @@ def _pair(track: MeshedTrack, factor: Factor, x: float) -> float:
     own = float(spread @ u + track.local_compliance(np.array([x]))[0])
     stretch = track.stretch(x, 2 * track.thickness)
     # by reciprocity the motion of a node on top under the spread load
-    node = np.abs(stretch.x - x).argmin() * len(stretch.y) + np.abs(stretch.arc).argmin()
+    node = stretch.crown_node(x)
     top = stretch.map[node] @ u[stretch.dofs] + stretch.centre_residual[0, node]
     return float(top) - own
