@@ -199,7 +199,8 @@ def test_every_picture_is_one(opened):
 
 def test_an_animation_stands_in_its_pictures_place_unless_it_is_large(tmp_path):
     with figure_style():
-        save(new_figure(1.0), tmp_path, "moving")
+        (one := new_figure(1.0)).add_subplot()
+        save(one, tmp_path, "moving")
     frames = [Image.new("RGB", (80, 40), colour) for colour in ("red", "blue")]
     frames[0].save(tmp_path / "moving.gif", save_all=True, append_images=frames[1:])
     text = '<head></head><body><div data-figure="moving.pdf"></div></body>'

@@ -21,7 +21,10 @@ _NOTE = (
     "passage instead of the percentile of many sections of track. Unloading is up to 20 Hz too. "
     "Limits of EN 14363: "
 )
-_LATERAL = ", and Y/Q outwards and ΣY as means over 2 m of it"
+_LATERAL = (
+    ", and Y/Q outwards and ΣY as means over 2 m of it (Y is that of linear springs, without "
+    "flange and creep)"
+)
 
 
 def safety_table(results: StudyResults) -> list[Block]:
