@@ -98,6 +98,24 @@ def amplification(dynamic: ArrayLike, static: ArrayLike) -> float:
     return float(np.max(np.abs(np.asarray(dynamic)))) / largest
 
 
+def track_twist(x: ArrayLike, right: ArrayLike, left: ArrayLike, length: float = 3.0) -> float:
+    """Largest change over a length [m] of the left rail's height above the right one's [m].
+
+    Parameters
+    ----------
+    x : array_like
+        (n,) X [m], which increases.
+    right, left : array_like
+        (..., n) heights of the rails there [m].
+    """
+    place = np.asarray(x, dtype=float)
+    cross = np.asarray(left, dtype=float) - np.asarray(right, dtype=float)
+    there = place[place + length <= place[-1] + 1e-9]
+    rows = cross.reshape(-1, len(place))
+    ends = [np.interp(there + length, place, row) - np.interp(there, place, row) for row in rows]
+    return float(np.max(np.abs(ends), initial=0.0))
+
+
 def resonance_speeds(frequency: float, distance: float, n: int = 4) -> Array:
     """v = f L_c/i, i = 1 ... n: loads at a distance L_c [m] come once in i periods [m/s]."""
     raise_if(positive("frequency", frequency, "Hz") + positive("distance", distance, "m"))

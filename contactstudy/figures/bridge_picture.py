@@ -59,5 +59,6 @@ def _caption(name: str, scene: Scene) -> str:
         "wheelsets on the bridge. Above: displacement of all decks (blue) and of the rail (grey), "
         f"wheels as dots. Below: the span that moves most, its displacements enlarged {factor} "
         "times; wheels stand on the rail and cars on their wheels, without the irregularity and "
-        f"their own motion. {FIGURES}/{ANIMATION} shows the whole passage."
+        f"their own motion. {FIGURES}/{ANIMATION} shows the whole passage, fields/bridge.pvd opens "
+        "it in ParaView."
     )

@@ -83,6 +83,10 @@ def traces(
             )
         for name in having:
             found += _of_run(name, known[name], signal, over)
+    abscissae = {t.signal: t.abscissa for t in found}
+    if len(set(abscissae.values())) > 1:
+        told = ", ".join(f"{signal} is over {name}" for signal, name in abscissae.items())
+        problems.append(f"--signal: all must be over one abscissa; {told}; --over chooses one")
     if problems:
         raise InputError(problems)
     return found
@@ -182,6 +186,12 @@ def _figure(found: Sequence[Trace], reference: str | None) -> Figure:
             axes.plot(t.x, values, label=t.label, **styles[t.label].line)
         axes.set_title(own[0].attrs.get("long_name", signal.replace("_", " ")), loc="left")
         axes.set_ylabel(" ".join([known.axis if known else "", f"({unit})" if unit else ""]))
+    # the legend is that of the first panel: it names the curves of all
+    there = set(panels[0].get_legend_handles_labels()[1])
+    for name in [name for name in runs if name not in there]:
+        panels[0].plot([], [], label=name, **styles[name].line)
+    if found[0].abscissa_unit == "Hz":
+        panels[-1].set_xscale("log")
     abscissa = found[0].abscissa.replace("_", " ").capitalize()
     panels[-1].set_xlabel(f"{abscissa} ({found[0].abscissa_unit})")
     figure_legend(figure, panels[0])

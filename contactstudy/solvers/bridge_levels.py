@@ -19,9 +19,7 @@ REACH = 10.0
 STEPS_A_PERIOD = 10
 """Fewest time steps of a period: average acceleration makes it (2 pi/n)^2/12 = 3 % too long."""
 _FEWEST = 8  # samples of a spectral estimate
-_NOTE = (
-    f"third-octave levels while wheels are within {REACH:g} m, re {REFERENCE:g} m/s (ISO 1683), of"
-)
+_NOTE = f"level re {1e9 * REFERENCE:g} nm/s, wheels within {REACH:g} m"
 
 
 def velocity_levels(data: xr.Dataset, positions: Array) -> xr.Dataset:
@@ -43,7 +41,7 @@ def velocity_levels(data: xr.Dataset, positions: Array) -> xr.Dataset:
     made = {}
     for name, rows in found.items():
         level = np.array([[row.get(f, np.nan) for f in bands] for row in rows])
-        text = f"{_NOTE} the {data[name].attrs['long_name']}"
+        text = f"{data[name].attrs['long_name']}: {_NOTE}"
         attrs = {"units": "dB", "long_name": text}
         made[f"{name}_level"] = xr.Variable((data[name].dims[0], "band"), level, attrs)
     attrs = {"units": "Hz", "long_name": "nominal centre of the third-octave band"}

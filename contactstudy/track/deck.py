@@ -64,6 +64,12 @@ class DeckSection(Parameters):
         stiffness = self.youngs_modulus * self.second_moment
         return math.pi / (2.0 * span**2) * math.sqrt(stiffness / self.mass_per_length)
 
+    def lateral_frequency(self, span: float) -> float | None:
+        """The same of lateral bending; None where it is not known."""
+        if self.lateral_second_moment is None:
+            return None
+        return self.frequency(span) * math.sqrt(self.lateral_second_moment / self.second_moment)
+
 
 class Box32m(DeckSection):
     """Double-track concrete box of 32 m of China's high-speed lines, about 34 t/m with track.

@@ -11,6 +11,7 @@ from contactstudy.compare.bridge_codes import (
     limits,
     load_factor,
     resonance_speeds,
+    track_twist,
 )
 from contactstudy.exceptions import InputError
 
@@ -80,6 +81,16 @@ def test_trains_resonate_where_their_loads_add_up():
     for v in speeds:
         arrivals = np.arange(10) * distance / v
         assert abs(np.sum(np.exp(2j * np.pi * f * arrivals))) == pytest.approx(10.0)
+
+
+def test_twist_of_a_track_that_rolls_evenly():
+    x = np.linspace(0.0, 30.0, 51)
+    roll = np.array([[1e-4], [-3e-4]]) * x  # rad, in two instants
+    assert track_twist(x, -0.75 * roll, 0.75 * roll) == pytest.approx(1.5 * 3e-4 * 3.0)
+    assert track_twist(x, x, x) == 0.0
+    # a step of the cross level within the length counts in full
+    step = np.where(x > 15.0, 2e-3, 0.0)
+    assert track_twist(x, np.zeros(51), step) == pytest.approx(2e-3)
 
 
 def test_amplification():

@@ -14,6 +14,7 @@ from contactstudy.study.kinds.passage.execution import execute_run
 from contactstudy.study.kinds.passage.metrics import metrics
 from contactstudy.study.kinds.passage.reading import parse_study
 from contactstudy.study.kinds.passage.report import report
+from contactstudy.study.kinds.passage.report.deck_table import deck_table
 from contactstudy.study.kinds.passage.report.safety_table import safety_table
 from contactstudy.study.kinds.passage.report.support_table import support_table
 from contactstudy.study.kinds.passage.safety import safety_of
@@ -108,6 +109,25 @@ def test_supports_and_strains(results):
     (table,) = support_table(results)
     assert [c["title"] for c in table["columns"]][1:3] == ["Force X (kN)", "Force Y (kN)"]
     assert all("(21.0" in row[-1] for row in table["rows"])  # only there is a pier
+
+
+def test_twist_of_the_track_by_brute_force(results):
+    (table,) = deck_table(results)
+    assert table["columns"][-1]["title"] == "Twist (mm/3 m)"
+    run, most = results.runs["one"], 0.0
+    rail, x = run.node_part.values == 0, run.node_x.values
+    up = run.frame_displacement.sel(axis="Z").values
+    for k in range(len(up)):
+        cross = {}
+        for node in np.flatnonzero(rail & (x >= 12.0) & (x <= 30.0)):
+            side = 1.0 if run.node_chain.values[node] else -1.0
+            cross[round(x[node], 6)] = cross.get(round(x[node], 6), 0.0) + side * up[k, node]
+        # seats are 0.6 m apart, 3 m is five bays
+        most = max(most, *(abs(cross[round(a + 3.0, 6)] - cross[a]) for a in cross if a < 26.9))
+    assert float(table["rows"][0][-1]) == pytest.approx(1e3 * most, rel=0.05)
+    # 32 m box over 9 m: f = pi/(2 L^2) sqrt(E I_z/m)
+    expected = np.pi / (2 * 81) * np.sqrt(34.5e9 * 86.2 / 34e3)
+    assert f"here {expected:.0f} Hz simply supported" in table["note"]
 
 
 def test_wheel_forces_against_brute_force(results):

@@ -9,7 +9,8 @@ from matplotlib.image import imread
 
 from contactstudy import cli
 from contactstudy.exceptions import InputError
-from contactstudy.figures.chosen import traces, within, write_traces
+from contactstudy.figures.chosen import _figure, traces, within, write_traces
+from contactstudy.plot.style import figure_style
 from contactstudy.study.results import StudyResults, write_results
 
 T = np.linspace(0.0, 1.0, 11)
@@ -48,6 +49,24 @@ def test_numbers_are_those_of_the_results(results):
     assert (first.label, second.label) == ("point, station 12", "point, station 18")
     np.testing.assert_array_equal(second.values, 2.0 * T)
     np.testing.assert_array_equal(second.x, T)
+
+
+def test_signals_over_different_abscissae_are_not_mixed(results):
+    run = results.runs["point"]
+    run["level"] = ("band", np.arange(3.0), {"units": "dB"})
+    results.runs["point"] = run.assign_coords(band=("band", [4.0, 5.0, 6.3], {"units": "Hz"}))
+    told = r"contact_force is over position, level is over band; --over chooses one"
+    with pytest.raises(InputError, match=told):
+        traces(results, ["contact_force", "level"], ["point"])
+    assert traces(results, ["level"], ["point"])[0].abscissa == "band"
+
+
+def test_the_legend_names_the_curves_of_all_panels(results):
+    found = traces(results, ["contact_force", "station_displacement"], ["point"], over="time")
+    with figure_style():
+        (legend,) = _figure(found, None).legends
+    names = [text.get_text() for text in legend.get_texts()]
+    assert names == ["point", "point, station 12", "point, station 18"]
 
 
 def test_a_part_is_cut_out(results):

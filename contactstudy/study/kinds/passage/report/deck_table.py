@@ -7,15 +7,28 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from contactstudy.compare.bridge_codes import amplification, dynamic_factor, limits
+from contactstudy.compare.bridge_codes import (
+    Limit,
+    amplification,
+    dynamic_factor,
+    limits,
+    track_twist,
+)
 from contactstudy.compare.low_pass import low_pass, passes
 from contactstudy.figures.deck import largest_station
 from contactstudy.figures.deck_damping import bridge_of
 from contactstudy.plot.text import label, number
 from contactstudy.report.blocks import Block, table
+from contactstudy.solvers.bridge_frames import RAIL
 from contactstudy.study.results import StudyResults
 
 _COLUMNS = ["Run", "Deflection (mm)", "Static (mm)", "Dynamic factor", "Acceleration (m/s²)"]
+_LIMITS = (
+    "vertical acceleration of the deck",
+    "vertical deflection",
+    "twist over 3 m",
+    "first lateral frequency, at least",
+)
 _LOWEST_CUT = 30.0  # Hz, EN 1990
 
 
@@ -25,6 +38,8 @@ def deck_table(results: StudyResults) -> list[Block]:
     if station is None:
         return []
     rows, cut = [], cut_off(_span(results.config["track"], station)[1])
+    twists = {name: _twist(run) for name, run in results.runs.items()}
+    twisted = any(twist is not None for twist in twists.values())
     for name, run in results.runs.items():
         here = run.sel(station=station)
         dynamic, static = here["deck_displacement"].values, here["deck_static"].values
@@ -38,9 +53,12 @@ def deck_table(results: StudyResults) -> list[Block]:
                 _filtered(here["deck_acceleration"], cut),
             ]
         )
+        if twisted:
+            twist = twists[name]
+            rows[-1].append("–" if twist is None else number(1e3 * twist, 2))
     caption = f"The deck at X = {number(station, 4)} m."
-    columns = [*_COLUMNS, f"up to {number(cut, 3)} Hz"]
-    return [table(columns, rows, caption, 1, _beside(results, station))]
+    columns = [*_COLUMNS, f"up to {number(cut, 3)} Hz"] + ["Twist (mm/3 m)"] * twisted
+    return [table(columns, rows, caption, 1, _beside(results, station, twisted))]
 
 
 def cut_off(frequency: float) -> float:
@@ -58,20 +76,57 @@ def _filtered(acceleration: xr.DataArray, cut: float) -> str:
     return number(float(np.abs(low_pass(acceleration.values, step, cut)).max()), 2)
 
 
-def _beside(results: StudyResults, station: float) -> str:
+def _twist(run: xr.Dataset) -> float | None:
+    """Of the track on the bridge, over 3 m, of all frames; None without two rails in frames."""
+    if "frame_displacement" not in run:
+        return None
+    rails = run["node_part"].values == RAIL
+    x, chain = run["node_x"].values[rails], run["node_chain"].values[rails]
+    if chain.max() == 0:
+        return None
+    supports, up = run["support"].values, run["frame_displacement"].sel(axis="Z").values[:, rails]
+    on = (x >= supports[0]) & (x <= supports[-1])
+    right, left = on & (chain == 0), on & (chain == 1)
+    return track_twist(x[right], up[:, right], up[:, left])
+
+
+def _beside(results: StudyResults, station: float, twisted: bool = False) -> str:
     """What the codes say of the span under the station."""
     track = results.config["track"]
     speed = float(results.config["journey"]["speed"])
     span, frequency = _span(track, station)
-    limit = limits(speed, track["layer"] == "ballast", span)[0]
+    found = {one.name: one for one in limits(speed, track["layer"] == "ballast", span)}
+    limit, deflection, twist, lateral = (found[name] for name in _LIMITS)
     factor, careful = (dynamic_factor(speed, frequency, span, c) for c in (False, True))
+    told = [
+        f"EN 1990: acceleration at most {number(limit.value, 2)} m/s² ({limit.source}), of "
+        "frequencies up to the largest of 30 Hz, 1.5 times the first and the third; the column "
+        "before it has all that the time step lets through",
+        f"deflection at most L/600 = {number(1e3 * deflection.value, 3)} mm ({deflection.source}), "
+        "under load model 71",
+    ]
+    if twisted:
+        told.append(
+            f"twist of the track at most {number(1e3 * twist.value, 2)} mm/3 m ({twist.source}), "
+            f"here the largest of {track['animation_frames']} instants"
+        )
+    told += _lateral(track, span, lateral)
     return (
-        f"EN 1990, {limit.source}: at most {number(limit.value, 2)} m/s², of frequencies up to the "
-        "largest of 30 Hz, 1.5 times the first and the third; the column before it has all that "
-        "the time step lets through. EN 1991-2, annex C, for a simply supported span of "
+        "; ".join(told) + ". EN 1991-2, annex C, for a simply supported span of "
         f"{number(span, 3)} m with {number(frequency, 3)} Hz: 1 + φ' + φ'' = {number(factor, 3)}, "
         f"with carefully maintained track {number(careful, 3)}."
     )
+
+
+def _lateral(track: dict[str, Any], span: float, limit: Limit) -> list[str]:
+    """First lateral frequency of a span, simply supported, where the deck's section tells it."""
+    frequency = bridge_of(track).deck.lateral_frequency(span)
+    if frequency is None:
+        return []
+    return [
+        f"first lateral frequency at least {limit.value:g} {limit.unit} ({limit.source}), here "
+        f"{number(frequency, 3)} Hz simply supported"
+    ]
 
 
 def _span(track: dict[str, Any], station: float) -> tuple[float, float]:
