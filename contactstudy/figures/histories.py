@@ -117,7 +117,8 @@ def _difference(
     if not swings_quickly(y):
         axes.plot(x, y, zorder=order, alpha=opacity, **style.line)
         return
-    axes.plot(x, y, visible=False, **style.line)  # where it can be zoomed, the line itself shows
+    # where it can be zoomed, the line itself shows
+    axes.plot(x, y, visible=False, zorder=order, alpha=opacity, **style.line)
     edges = np.linspace(0, len(y), _CELLS + 1).astype(int)[:-1]
     low, high = np.minimum.reduceat(y, edges), np.maximum.reduceat(y, edges)
     middle = x[np.minimum(edges + len(y) // (2 * _CELLS), len(x) - 1)]

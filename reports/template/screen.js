@@ -160,7 +160,7 @@ function panel(own, drawn, element) {
   const frame = Math.min(element.clientWidth - beside, 480);
   const size = own.equal
     ? { frame_width: frame, frame_height: Math.round(frame * equal) }
-    : { sizing_mode: "stretch_width", height: height(own), min_border_left: 75 };
+    : { sizing_mode: "stretch_width", height: height(own), min_border_left: 75, min_border_right: 15 };
   const plot = Bokeh.Plotting.figure({
     tools: [], title: own.title || null, toolbar_location: "above", output_backend: "canvas",
     x_range: range("x"), y_range: range("y"), x_axis_label: own.x.label, y_axis_label: own.y.label,
@@ -179,6 +179,10 @@ function panel(own, drawn, element) {
   for (const axis of [...plot.below, ...plot.left]) {
     axis.axis_label_text_font_style = "normal";
     axis.axis_label_text_font_size = "12px";
+  }
+  for (const [scale, axis] of [[own.x, plot.below[0]], [own.y, plot.left[0]]]) {
+    const few = scale.logarithmic && Math.abs(Math.log10(scale.high / scale.low)) < 2;
+    if (few) axis.ticker.num_minor_ticks = 0; // between them they would be a black bar
   }
   if (own.x.ticks) ticks(plot.below[0], own.x.ticks);
   if (own.y.ticks) ticks(plot.left[0], own.y.ticks);
@@ -239,12 +243,15 @@ function show(box, figure) {
   grid.className = "panels";
   const columns = Math.max(...figure.panels.map((p) => p.place[1] + p.place[3]));
   grid.style.setProperty("--columns", columns);
+  grid.classList.toggle("many", columns > 2);
   box.replaceChildren(legend, grid, told);
   const renderers = new Map();
   const [plots, elements] = [[], []];
   for (const own of figure.panels) {
     const element = document.createElement("div");
     const [row, column, rows, wide] = own.place;
+    const above = figure.panels.find((p) => p.place[1] === column && p.title);
+    if (columns > 1) own.title ||= above?.title ?? ""; // on a phone it is far above
     element.style.setProperty("--area", `${row + 1} / ${column + 1} / span ${rows} / span ${wide}`);
     grid.append(element);
     const [plot, made] = panel(own, plots, element);

@@ -136,8 +136,14 @@ def _ends(first: str, last: str, parameter: Parameter) -> tuple[tuple[float, flo
         (a, of), (b, other) = multiple(first), multiple(last)
         if of == other:
             return (a, b), of
-    a, b = (to_si(end, parameter.unit) for end in (first, last))
-    return (a, b), ""
+    return (_end(first, parameter), _end(last, parameter)), ""
+
+
+def _end(text: str, parameter: Parameter) -> float:
+    try:
+        return to_si(text, parameter.unit)
+    except UnitError as error:
+        raise UnitError(f"“{text}” {error}; a series {_FORM}") from error
 
 
 def _ratio(text: str) -> float:

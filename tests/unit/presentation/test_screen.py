@@ -145,6 +145,17 @@ def test_values_are_read_where_one_points(opened):
     assert re.search(r"surface \(reference\): [\d.]+", told)
 
 
+def test_a_map_tells_its_value(opened):
+    """At the centre of the patch, the pressure of the node there."""
+    study, browser = opened
+    script = drawn(browser, "patch_pressure")
+    moved(browser, script, 0.1, 0.1)
+    told = browser.run(f"{script} return box.querySelector('output').textContent")
+    value = float(re.search(r"Pressure \(MPa\): ([\d.]+)", told)[1])
+    peak = study.runs["surface"].pressure.max("point").values / 1e6
+    assert min(abs(value / peak - 1.0)) < 0.01
+
+
 def test_a_drawn_box_zooms_both_panels(opened):
     from selenium.webdriver import ActionChains
 

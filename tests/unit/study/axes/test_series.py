@@ -79,6 +79,11 @@ def test_arrays_ranges_and_numbers_of_numpy_are_values_of_a_file():
         ("1 m to 9 m x 2", "journey.fade_in", "whole factors"),
         ("1 m to 8 m x 1", "journey.fade_in", "whole factors"),
         ("1 kg to 8 m x 2", "journey.fade_in", "wrong unit 'kg'"),
+        (
+            "1 m to 8 m + 2 m",
+            "journey.fade_in",
+            '“8 m \\+ 2 m” must be a number .*text like "1 to 50',
+        ),
         ([1, 2, 1.0], "journey.fade_in", "must not hold a value twice"),
         ([], "journey.fade_in", "at least one value"),
         (date(2026, 1, 1), "journey.fade_in", "holds a date"),
