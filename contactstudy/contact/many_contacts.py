@@ -1,11 +1,14 @@
 """Many contacts on one system: nearby ones share a compliance, one solution moves everything.
 
-What the forces of a long train move is a matter of one banded solution a step, however many wheels
-there are. What the contacts need beforehand, W = B S^-1 B^T, is local: in one time step a load on a
-rail is felt some metres away (5 m away 4e-9 of it at 0.2 ms, 4e-7 at 0.5 ms on a track of 60E1 on
-a concrete box). So columns of S^-1 are cut where they fall below `CUT` of their largest value, and
-what that leaves out is seen afterwards, for the solution has all of it: with the gaps that it
-shows the forces are found again if the law is missed by more than `TOLERANCE`.
+With S = L L^T and z_i = L^-1 B_i^T a step needs one banded solution, however many wheels there are:
+
+    L y = rhs,   B S^-1 rhs = Z^T y,   W = B S^-1 B^T = Z^T Z,   L^T a = y + Z lambda.
+
+What z_i holds is local: in one time step a load on a rail is felt some metres away (5 m away 4e-9
+of it at 0.2 ms, 4e-7 at 0.5 ms on a track of 60E1 on a concrete box). So columns of L^-1 are cut
+where they fall below `CUT` of their largest value. Where only the free displacements are known, as
+at the static start, what the cut leaves out is seen afterwards: with the gaps that one more
+solution shows the forces are found again if the law is missed by more than `TOLERANCE`.
 """
 
 from __future__ import annotations
@@ -13,7 +16,7 @@ from __future__ import annotations
 import numpy as np
 
 from contactstudy.arrays import Array, IntArray
-from contactstudy.compiled import compiled
+from contactstudy.compiled import compiled, compiled_in_any_order
 from contactstudy.contact.point_gaps import PointContacts
 from contactstudy.dynamics.banded import Factor
 from contactstudy.dynamics.columns import Columns, LocalColumns
@@ -22,8 +25,8 @@ from contactstudy.dynamics.stepper import ContactStep
 from contactstudy.exceptions import NumericalError
 
 FEWEST = 12
-"""Contacts from which on one more banded solution costs less than adding up columns."""
-CUT = 1e-8
+"""Contacts from which on half columns cost less than adding up whole ones."""
+CUT = 1e-10
 """Of the largest value of a column, where it ends."""
 TOLERANCE = 1e-7
 """Error of a gap, relative to the largest change that the contact forces make of one."""
@@ -40,28 +43,48 @@ class AttachedMany:
 
     def __init__(self, coupling: PointContacts, factor: Factor, scale: float) -> None:
         self._coupling, self._factor, self._scale = coupling, factor, scale
-        self._columns = LocalColumns(factor, _MEMORY, CUT)
+        self._columns = LocalColumns(factor, _MEMORY, CUT, half=True)
         self._exact: tuple[int, Array] | None = None
+        n_blocks, rows, _ = factor.blocks.left.shape
+        self._padded = n_blocks * rows  # y of `Factor.forward` without the zeros before it
         dofs, weights = coupling.gaps.rows(0)
         used = np.unique(dofs[weights != 0.0])
         probe = used[:: max(1, len(used) // 8)]
         width = int(self._columns.at(probe).width[probe].max())
-        self._global = len(used) * width * 8 > _WIDE
+        self.local = len(used) * width * 8 <= _WIDE
 
     def compliance(self, step: int) -> Array:
         """W (nc, nc) at a step, but for what far contacts do to each other [m/N]."""
         return self._compliance(step, *self._coupling.gaps.rows(step))
 
     def _compliance(self, step: int, dofs: IntArray, weights: Array) -> Array:
-        if self._global:
-            W = self._solved(step, dofs, weights)
-        else:
-            W = nearby_compliance(
-                self._columns.at(dofs), dofs, weights, self._coupling.gaps.wheels[0].shape[1]
-            )
+        W = overlaps(self._pieces(dofs, weights)) if self.local else None
+        return self._scaled(step, self._solved(step, dofs, weights) if W is None else W)
+
+    def _scaled(self, step: int, W: Array) -> Array:
         W = self._scale * W
-        W.flat[:: len(dofs) + 1] += self._coupling.gaps.compliance[step]
+        W.flat[:: len(W) + 1] += self._coupling.gaps.compliance[step]
         return W
+
+    def _pieces(self, dofs: IntArray, weights: Array) -> Columns:
+        of_vehicle = self._coupling.gaps.wheels[0].shape[1]
+        return combined(self._columns.at(dofs), dofs, weights, of_vehicle)
+
+    def half_way(self, step: int, u_known: Array, of_a: float, half: Array) -> ContactStep:
+        """See `HalfWay`."""
+        coupling, gaps = self._coupling, self._coupling.gaps
+        dofs, weights = gaps.rows(step)
+        pieces, local = self._pieces(dofs, weights), gaps.compliance[step]
+        y = half[len(half) - self._padded :]
+        free_gap = row_values(dofs, weights, u_known) + of_a * products(pieces, y)
+        W = self._scaled(step, overlaps(pieces))
+        force = coupling.forces(step, W, free_gap - gaps.irregularity[step])
+        load, increment = np.zeros_like(u_known), np.zeros_like(half)
+        add_rows(dofs, weights, force, load)
+        add_pieces(pieces, self._scale / of_a * force, increment[len(half) - self._padded :])
+        return ContactStep(
+            load, increment, {"contact_force": force, "rail_residual": -local * force}
+        )
 
     def _solved(self, step: int, dofs: IntArray, weights: Array) -> Array:
         """B S^-1 B^T with one solution a contact; kept, as a static start asks for one step."""
@@ -102,42 +125,92 @@ class AttachedMany:
 
 
 @compiled
-def nearby_compliance(columns: Columns, dofs: IntArray, weights: Array, of_vehicle: int) -> Array:
-    """B S^-1 B^T (m, m) for rows B given by dofs and weights (m, k), as far as columns reach.
+def combined(columns: Columns, dofs: IntArray, weights: Array, of_vehicle: int) -> Columns:
+    """Columns for m rows B given by dofs and weights (m, k): of row i pieces i and m + i.
 
-    The first `of_vehicle` dofs of a row are the vehicle's and the others the track's; between the
-    two nothing but the contacts acts. Pairs of rows that do not reach each other are passed over.
+    The first `of_vehicle` dofs of a row are the vehicle's and the others the track's, far from
+    each other; the first pieces are those of the vehicle.
     """
     first, width, begin, values = columns
     m, count = dofs.shape
+    low, wide = np.zeros(2 * m, dtype=np.int64), np.zeros(2 * m, dtype=np.int64)
+    at, used = np.zeros(2 * m, dtype=np.int64), 0
+    for piece in range(2 * m):
+        i = piece % m
+        start, stop = (0, of_vehicle) if piece < m else (of_vehicle, count)
+        bottom, top = len(first), 0
+        for a in range(start, stop):
+            if weights[i, a] != 0.0:
+                d = dofs[i, a]
+                bottom, top = min(bottom, first[d]), max(top, first[d] + width[d])
+        if top > bottom:
+            low[piece], wide[piece] = bottom, top - bottom
+        at[piece] = used
+        used += wide[piece]
+    found = np.zeros(used)
+    for piece in range(2 * m):
+        i = piece % m
+        start, stop = (0, of_vehicle) if piece < m else (of_vehicle, count)
+        for a in range(start, stop):
+            w, d = weights[i, a], dofs[i, a]
+            if w != 0.0:
+                own = values[begin[d] : begin[d] + width[d]]
+                into = found[at[piece] + first[d] - low[piece] :]
+                for k in range(width[d]):
+                    into[k] += w * own[k]
+    return Columns(low, wide, at, found)
+
+
+@compiled_in_any_order
+def overlaps(pieces: Columns) -> Array:
+    """Z^T Z (m, m); pieces that do not reach each other are passed over."""
+    low, wide, at, values = pieces
+    m = len(low) // 2
     found = np.zeros((m, m))
-    low, high = np.empty(m, dtype=np.int64), np.empty(m, dtype=np.int64)  # dofs of each row
-    reach_low, reach_high = np.empty(m, dtype=np.int64), np.empty(m, dtype=np.int64)
-    for start, stop in ((0, of_vehicle), (of_vehicle, count)):
+    for part in range(0, 2 * m, m):
         for i in range(m):
-            low[i], high[i], reach_low[i], reach_high[i] = len(first), -1, len(first), -1
-            for a in range(start, stop):
-                if weights[i, a] != 0.0:
-                    d = dofs[i, a]
-                    low[i], high[i] = min(low[i], d), max(high[i], d)
-                    reach_low[i] = min(reach_low[i], first[d])
-                    reach_high[i] = max(reach_high[i], first[d] + width[d])
-        for i in range(m):
+            a = part + i
             for j in range(i, m):
-                if low[j] >= reach_high[i] or high[j] < reach_low[i]:
+                b = part + j
+                start = max(low[a], low[b])
+                stop = min(low[a] + wide[a], low[b] + wide[b])
+                if stop <= start:
                     continue
+                one = values[at[a] + start - low[a] : at[a] + stop - low[a]]
+                other = values[at[b] + start - low[b] : at[b] + stop - low[b]]
                 total = 0.0
-                for a in range(start, stop):
-                    d, w = dofs[i, a], weights[i, a]
-                    if w == 0.0:
-                        continue
-                    shift = begin[d] - first[d]
-                    for b in range(start, stop):
-                        e = dofs[j, b]
-                        if weights[j, b] != 0.0 and first[d] <= e < first[d] + width[d]:
-                            total += w * weights[j, b] * values[shift + e]
+                for k in range(stop - start):
+                    total += one[k] * other[k]
                 found[i, j] += total
     for i in range(m):
         for j in range(i):
             found[i, j] = found[j, i]
     return found
+
+
+@compiled_in_any_order
+def products(pieces: Columns, y: Array) -> Array:
+    """Z^T y (m,)."""
+    low, wide, at, values = pieces
+    m = len(low) // 2
+    found = np.zeros(m)
+    for piece in range(2 * m):
+        own = values[at[piece] : at[piece] + wide[piece]]
+        there = y[low[piece] : low[piece] + wide[piece]]
+        total = 0.0
+        for k in range(len(own)):
+            total += own[k] * there[k]
+        found[piece % m] += total
+    return found
+
+
+@compiled
+def add_pieces(pieces: Columns, factors: Array, y: Array) -> None:
+    """y (n,) += Z factors, factors (m,)."""
+    low, wide, at, values = pieces
+    m = len(low) // 2
+    for piece in range(2 * m):
+        own = values[at[piece] : at[piece] + wide[piece]]
+        there = y[low[piece] : low[piece] + wide[piece]]
+        for k in range(len(own)):
+            there[k] += factors[piece % m] * own[k]

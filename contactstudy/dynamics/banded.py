@@ -104,16 +104,26 @@ class Factor:
         lead = np.where(filled.any(axis=1), filled.argmax(axis=1), width)
         return Blocks(left, np.tril(np.linalg.inv(blocks[:, :, width:])), lead)
 
+    def forward(self, b: Array) -> Array:
+        """y of L y = b (n,), behind zeros as many as a block is wide: what `backward` takes."""
+        n_blocks, _, width = self.blocks.left.shape
+        y = np.zeros(width + n_blocks * BLOCK)
+        y[width : width + self.n] = b
+        _forward(self.blocks, y, 0, n_blocks)
+        return y
+
+    def backward(self, y: Array) -> Array:
+        """x (n,) of L^T x = y, which is overwritten."""
+        n_blocks, _, width = self.blocks.left.shape
+        _backward(self.blocks, y, 0, n_blocks)
+        return y[width : width + self.n]
+
     def solve(self, b: Array) -> Array:
         """Solve for one or several right-hand sides, (n,) or (n, k); b is left as it is."""
+        if b.ndim == 1:
+            return self.backward(self.forward(b))
         blocks = self.blocks
         n_blocks, _, width = blocks.left.shape
-        if b.ndim == 1:
-            x = np.zeros(width + n_blocks * BLOCK)
-            x[width : width + self.n] = b
-            _forward(blocks, x, 0, n_blocks)
-            _backward(blocks, x, 0, n_blocks)
-            return x[width : width + self.n]
         columns = np.zeros((b.shape[1], width + n_blocks * BLOCK))
         columns[:, width : width + self.n] = b.T
         for x in columns:
@@ -201,6 +211,20 @@ def _backward(blocks: Blocks, x: Array, first: int, stop: int) -> None:
 
 
 @compiled
+def forward_near(blocks: Blocks, x: Array, first: int, last: int, cut: float) -> int:
+    """Downward sweep of `solve_near` alone; blocks first .. high - 1 are touched."""
+    n_blocks, _, width = blocks.left.shape
+    high = last
+    _forward(blocks, x, first, last)
+    largest = _largest(x, width + first * 8, width + last * 8)
+    while high < n_blocks and _largest(x, high * 8, high * 8 + width) > cut * largest:
+        stop = min(high + 8, n_blocks)
+        _forward(blocks, x, high, stop)
+        high = stop
+    return high
+
+
+@compiled
 def solve_near(blocks: Blocks, x: Array, first: int, last: int, cut: float) -> tuple[int, int]:
     """Solve for a load on blocks first .. last - 1 only; which blocks are touched.
 
@@ -209,14 +233,8 @@ def solve_near(blocks: Blocks, x: Array, first: int, last: int, cut: float) -> t
     of a short time step a load is felt some metres away. Touched are blocks low .. high - 1, and
     as many places of x below them as `left` is wide.
     """
-    n_blocks, _, width = blocks.left.shape
-    low, high = first, last
-    _forward(blocks, x, first, last)
-    largest = _largest(x, width + first * 8, width + last * 8)
-    while high < n_blocks and _largest(x, high * 8, high * 8 + width) > cut * largest:
-        stop = min(high + 8, n_blocks)
-        _forward(blocks, x, high, stop)
-        high = stop
+    width = blocks.left.shape[2]
+    low, high = first, forward_near(blocks, x, first, last, cut)
     _backward(blocks, x, first, high)
     largest = _largest(x, first * 8, width + high * 8)
     while low > 0 and _largest(x, low * 8, low * 8 + width) > cut * largest:

@@ -12,7 +12,7 @@ import numpy as np
 
 from contactstudy.arrays import Array, IntArray
 from contactstudy.compiled import compiled
-from contactstudy.dynamics.banded import Blocks, Factor, solve_near
+from contactstudy.dynamics.banded import Blocks, Factor, forward_near, solve_near
 
 CUT = 1e-18
 """Values at the ends of a column that are smaller than this times its largest are left out."""
@@ -42,11 +42,15 @@ class LocalColumns:
         Bytes beyond which columns that are not asked for at the moment are dropped.
     cut : float
         In place of `CUT`.
+    half : bool
+        Columns of L^-1, S = L L^T, in place of those of S^-1: from the dof on only.
     """
 
-    def __init__(self, factor: Factor, memory: float = 128e6, cut: float = CUT) -> None:
+    def __init__(
+        self, factor: Factor, memory: float = 128e6, cut: float = CUT, half: bool = False
+    ) -> None:
         self._factor, self._most, n = factor, int(memory / 8), factor.n
-        self._cut = cut
+        self._cut, self._half = cut, half
         n_blocks, _, width = factor.blocks.left.shape
         self._work = np.zeros(width + 8 * n_blocks)
         self._columns = Columns(
@@ -63,8 +67,9 @@ class LocalColumns:
         while (begin[dofs] < 0).any():
             missing = np.unique(dofs[begin[dofs] < 0])
             self._used = _fill(
-                self._factor.blocks, missing, self._columns, self._used, self._work, self._cut
-            )
+                self._factor.blocks, missing, self._columns, self._used, self._work, self._cut,
+                self._half,
+            )  # fmt: skip
             if (begin[missing] < 0).any():
                 self._make_room(np.unique(dofs))
         return self._columns
@@ -100,7 +105,15 @@ class LocalColumns:
 
 
 @compiled
-def _fill(blocks: Blocks, dofs: IntArray, columns: Columns, used: int, x: Array, cut: float) -> int:
+def _fill(
+    blocks: Blocks,
+    dofs: IntArray,
+    columns: Columns,
+    used: int,
+    x: Array,
+    cut: float,
+    half: bool,
+) -> int:
     """Compute the columns of dofs one by one as long as there is room; how much is used then.
 
     x is zero, as long as the factor's blocks and below them as many places as they are wide.
@@ -109,7 +122,11 @@ def _fill(blocks: Blocks, dofs: IntArray, columns: Columns, used: int, x: Array,
     before, n = blocks.left.shape[2], len(first)
     for dof in dofs:
         x[before + dof] = 1.0
-        low, high = solve_near(blocks, x, dof // 8, dof // 8 + 1, 1e-2 * cut)
+        low = dof // 8
+        if half:
+            high = forward_near(blocks, x, low, low + 1, 1e-2 * cut)
+        else:
+            low, high = solve_near(blocks, x, low, low + 1, 1e-2 * cut)
         start, stop = before + low * 8, before + min(high * 8, n)
         largest = 0.0
         for k in range(start, stop):

@@ -96,6 +96,22 @@ class SharedCompliance(Protocol):
         """(nc, nc) growth of the gaps at a step for unit contact forces [m/N]."""
 
 
+@runtime_checkable
+class HalfWay(Protocol):
+    """An attached coupling that needs no more of a free step than y of L y = rhs, S = L L^T."""
+
+    @property
+    def local(self) -> bool:
+        """Whether it can: loads are felt nearby only."""
+
+    def half_way(self, step: int, u_known: Array, of_a: float, half: Array) -> ContactStep:
+        """Contact at the end of a step whose free displacements are u_known + of_a S^-1 rhs.
+
+        `half` (n + some,) is y as `Factor.forward` gives it; the increment is that of y for the
+        accelerations.
+        """
+
+
 class Coupling(Protocol):
     """A contact law joined to the moving wheel positions, known for every step."""
 
@@ -172,6 +188,7 @@ def march(
     if coupling is not None:
         attached = coupling.attached(factor, (1.0 - af) * of_a)
         contact_state = start.contact.state if start.contact else coupling.start()
+    half_way = attached.half_way if isinstance(attached, HalfWay) and attached.local else None
     mass, damping, stiffness = map(windows, (system.mass, system.damping, system.stiffness))
     load_at = external if callable(external) else lambda step: external
     u, v, a, load = start.u, start.v, start.a, start.load
@@ -185,14 +202,20 @@ def march(
             subtract_product(mass, am * a, rhs)
         subtract_product(damping, (1.0 - af) * v_known + af * v, rhs)
         subtract_product(stiffness, (1.0 - af) * u_known + af * u, rhs)
-        a_free = factor.solve(rhs)
-        u, a = u_known + of_a * a_free, a_free
         contact, load = None, ext
-        if attached is not None:
-            contact = attached(step, u, contact_state)
-            contact_state = contact.state
-            u, a = u + contact.increment, a + contact.increment / of_a
-            load = ext + contact.load
+        if half_way is not None:
+            y = factor.forward(rhs)
+            contact = half_way(step, u_known, of_a, y)
+            a = factor.backward(y + contact.increment)
+            u, load = u_known + of_a * a, ext + contact.load
+        else:
+            a = factor.solve(rhs)
+            u = u_known + of_a * a
+            if attached is not None:
+                contact = attached(step, u, contact_state)
+                contact_state = contact.state
+                u, a = u + contact.increment, a + contact.increment / of_a
+                load = ext + contact.load
         v = v_known + gamma * dt * a
         if not np.isfinite(a).all():
             where = f" (wheel at X = {steps.position(step):.3f} m)" if steps.position else ""

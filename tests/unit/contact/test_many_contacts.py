@@ -6,7 +6,7 @@ import pytest
 from contactstudy.contact import many_contacts
 from contactstudy.contact.few_contacts import AttachedFew
 from contactstudy.contact.laws import HertzSpring, LinearSpring, MovingForce, RigidContact
-from contactstudy.contact.many_contacts import AttachedMany, nearby_compliance
+from contactstudy.contact.many_contacts import AttachedMany, combined, overlaps, products
 from contactstudy.dynamics.banded import Factor
 from contactstudy.dynamics.columns import LocalColumns
 from contactstudy.irregularity import paper_spectrum, sample_profile
@@ -73,6 +73,37 @@ def test_compliance_of_near_rows_is_that_of_the_inverse(dt):
     for row, d, w in zip(B, dofs, weights, strict=True):
         np.add.at(row, d, w)
     exact = B @ factor.solve(B.T)
-    columns = LocalColumns(factor, cut=1e-8).at(dofs)
-    found = nearby_compliance(columns, dofs, weights, made.wheels[0].shape[1])
-    np.testing.assert_allclose(found, exact, rtol=0.0, atol=1e-7 * np.diag(exact).min())
+    columns = LocalColumns(factor, cut=1e-8, half=True).at(dofs)
+    pieces = combined(columns, dofs, weights, made.wheels[0].shape[1])
+    np.testing.assert_allclose(overlaps(pieces), exact, rtol=0.0, atol=1e-7 * np.diag(exact).min())
+    b = np.random.default_rng(2).normal(size=factor.n)
+    y = factor.forward(b)[-factor.blocks.left.shape[0] * 8 :]
+    free = B @ factor.solve(b)
+    np.testing.assert_allclose(products(pieces, y), free, atol=1e-6 * np.abs(free).max())
+
+
+@pytest.mark.parametrize("planar", [True, False])
+@pytest.mark.parametrize("law", LAWS, ids=lambda law: type(law).__name__)
+@pytest.mark.parametrize("dt", [1e-4, 1e-3])
+def test_half_way_through_a_solution_forces_are_those_of_the_whole_one(planar, law, dt):
+    """y of L y = rhs tells as much as the free displacements u_known + of_a S^-1 rhs."""
+    if planar and isinstance(law, RigidContact):
+        return
+    made, of_a, scale = passage(planar), 0.25 * dt**2, 0.2 * dt**2
+    coupling, factor = point_coupling(made, law), factor_of(made, dt)
+    random = np.random.default_rng(1)
+    u_known = random.normal(scale=1e-4, size=made.n_dofs)
+    u_known[-made.vehicle.n_dofs :] -= 2e-4
+    rhs = random.normal(scale=1e2, size=made.n_dofs)
+    free = factor.solve(rhs)
+    whole = AttachedFew(coupling, factor, scale)(5, u_known + of_a * free, None)
+    y = factor.forward(rhs)
+    found = AttachedMany(coupling, factor, scale).half_way(5, u_known, of_a, y)
+    force = whole.record["contact_force"]
+    np.testing.assert_allclose(
+        found.record["contact_force"], force, rtol=0.0, atol=1e-8 * np.abs(force).max()
+    )
+    moved = of_a * (factor.backward(y + found.increment) - free)
+    np.testing.assert_allclose(
+        moved, whole.increment, rtol=0.0, atol=1e-8 * np.abs(whole.increment).max()
+    )
