@@ -37,7 +37,7 @@ def kept_histories(
         if all(value is not None for value in pieces.values()):
             runs = plan.kind.collect(variant.study, pieces)
             found |= {(index, run): histories(value, keep) for run, value in runs.items()}
-        size = sum(one.sizes.get(SAMPLE, 0) * len(one.variables) for one in found.values())
+        size = sum(v.size for one in found.values() for v in one.variables.values())
         if size > _MOST:
             raise InputError(f"sweep.keep: histories of more than {8 * _MOST / 1e9:g} GB")
     wanted = dict.fromkeys(str(n) for one in found.values() for n in one.variables)
@@ -49,24 +49,33 @@ def kept_histories(
     dims = data["variant"].dims
     longest = max((one.sizes.get(SAMPLE, 0) for one in found.values()), default=0)
     for name in wanted:
-        values = np.full([*(data.sizes[d] for d in dims), len(labels), longest], np.nan)
-        attrs: dict[str, Any] = {}
-        for (index, run), one in found.items():
-            if name in one.variables:
-                values[index][labels.index(run), : one.sizes[SAMPLE]] = one[name].values
-                attrs = dict(one[name].attrs)
-        data[name] = ((*dims, "run", SAMPLE), values, attrs)
+        own = {at: one[name] for at, one in found.items() if name in one.variables}
+        extra = {d: 0 for array in own.values() for d in array.dims if d != SAMPLE}
+        sizes = {d: max(a.sizes.get(d, 1) for a in own.values()) for d in extra}
+        shape = [*(data.sizes[d] for d in dims), len(labels), *sizes.values(), longest]
+        values, attrs = np.full(shape, np.nan), dict[str, Any]()
+        for (index, run), array in own.items():
+            array = array.expand_dims([d for d in extra if d not in array.dims])
+            array = array.transpose(*extra, SAMPLE)
+            values[index][labels.index(run)][tuple(map(slice, array.shape))] = array.values
+            attrs = dict(array.attrs)
+        data[name] = ((*dims, "run", *map(str, extra), SAMPLE), values, attrs)
     return data
 
 
 def histories(run: xr.Dataset, keep: Sequence[str]) -> xr.Dataset:
-    """Histories of one run along its one dimension, and the coordinates along it."""
+    """Histories of one run, samples last, and the coordinates along them.
+
+    Those of several wheels or stations have a dimension before that.
+    """
     import xarray as xr
 
     made = xr.Dataset()
     for name in keep:
-        if name in run and run[name].ndim == 1:
-            dim = run[name].dims[0]
-            own = [name, *(c for c in run.coords if run[c].dims == (dim,))]
-            made = made.assign({n: ((SAMPLE,), run[n].values, run[n].attrs) for n in own})
+        if name in run and run[name].ndim:
+            *others, dim = run[name].dims
+            for n in (name, *(c for c in run.coords if dim in run[c].dims)):
+                if set(run[n].dims) <= {*others, dim}:
+                    dims = [SAMPLE if d == dim else d for d in run[n].dims]
+                    made = made.assign({n: (dims, run[n].values, run[n].attrs)})
     return made

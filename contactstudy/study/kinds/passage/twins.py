@@ -11,9 +11,9 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
+from contactstudy.solvers.bridge_sensors import VARIABLES
 from contactstudy.solvers.dataset import POINT_SIGNALS, SECTION_SIGNALS, SURFACE_SIGNALS
 from contactstudy.solvers.whole_patch import with_maps
-from contactstudy.study.kinds.passage.on_bridge import vehicle_on
 from contactstudy.study.kinds.passage.runs import PointRun, SurfaceRun
 from contactstudy.study.kinds.passage.schema import Study
 from contactstudy.validation import multiple
@@ -59,11 +59,13 @@ def all_pieces(study: Study) -> list[str]:
 def histories(study: Study) -> list[str]:
     """Names of what the runs hold over time, and of surface contact along its static press.
 
-    Of several wheels there is only the time: the others have a dimension more.
+    Of several wheels and stations they have a dimension more.
     """
-    if vehicle_on(study.track, study.vehicle).n_wheels > 1:
-        return ["time"]
     found = ["time", "position", *POINT_SIGNALS]
+    if study.track.structure is not None:
+        found += list(VARIABLES)
+    elif study.journey.stations:
+        found.append("station_displacement")
     if any(isinstance(run, SurfaceRun) for run in study.runs.values()):
         found += [*SURFACE_SIGNALS, *(() if study.solid.half else SECTION_SIGNALS)]
         found += ["press_force", "press_approach", "press_penetration"]
