@@ -113,7 +113,7 @@ def test_supports_and_strains(results):
 
 def test_twist_of_the_track_by_brute_force(results):
     (table,) = deck_table(results)
-    assert table["columns"][-1]["title"] == "Twist (mm/3 m)"
+    assert table["columns"][-1]["title"] == "Twist (mm)"
     run, most = results.runs["one"], 0.0
     rail, x = run.node_part.values == 0, run.node_x.values
     up = run.frame_displacement.sel(axis="Z").values

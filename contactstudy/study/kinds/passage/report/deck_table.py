@@ -57,8 +57,8 @@ def deck_table(results: StudyResults) -> list[Block]:
             twist = twists[name]
             rows[-1].append("–" if twist is None else number(1e3 * twist, 2))
     caption = f"The deck at X = {number(station, 4)} m."
-    columns = [*_COLUMNS, f"up to {number(cut, 3)} Hz"] + ["Twist (mm/3 m)"] * twisted
-    return [table(columns, rows, caption, 1, _beside(results, station, twisted))]
+    columns = [*_COLUMNS, f"up to {number(cut, 3)} Hz"] + ["Twist (mm)"] * twisted
+    return [table(columns, rows, caption, 1, _beside(results, station, twisted)) | {"size": 8}]
 
 
 def cut_off(frequency: float) -> float:
@@ -108,7 +108,7 @@ def _beside(results: StudyResults, station: float, twisted: bool = False) -> str
     if twisted:
         told.append(
             f"twist of the track at most {number(1e3 * twist.value, 2)} mm/3 m ({twist.source}), "
-            f"here the largest of {track['animation_frames']} instants"
+            f"here over 3 m the largest of {track['animation_frames']} instants"
         )
     told += _lateral(track, span, lateral)
     return (
