@@ -1,6 +1,6 @@
 """The trust map as data of the page "Explorer".
 
-    contactstudy run trust_map --sweep 'keep=["contact_force"]' --out trust
+    contactstudy run trust_map --out trust --sweep 'keep=["contact_force", "contact_force_smooth"]'
     python docs/explorer.py trust
 
 writes ``docs/trust_map.json``, which is kept; the site's build makes the page's script of it.
@@ -9,6 +9,7 @@ writes ``docs/trust_map.json``, which is kept; the site's build makes the page's
 import json
 import re
 import sys
+import tomllib
 from pathlib import Path
 
 import numpy as np
@@ -21,13 +22,14 @@ from contactstudy.study.loading import find_study
 from contactstudy.study.results import StudyResults, read_results
 
 DATA = "trust_map.json"
-COMMAND = "contactstudy run {} --sweep 'keep=[\"contact_force\"]' --out trust"
+_KEPT = "contact_force", "contact_force_smooth"
+COMMAND = f"contactstudy run {{}} --out trust --sweep 'keep={json.dumps(_KEPT)}'"
 _AXES = (SPEED, AMPLITUDE, WAVELENGTH)
 _WAVES = 3
 _POINTS = 60
 """Of a signal at least; it has up to twice as many."""
 _COUNTS = 999
-"""Of the largest deviation from the static load, in which signals are written."""
+"""Of the largest value, in which signals are written."""
 
 
 def compact(results: StudyResults) -> dict:
@@ -37,8 +39,8 @@ def compact(results: StudyResults) -> dict:
     wavelength), None where there is nothing.
     """
     found, data = trust_map(results), results.designs["sweep"]
-    if found is None or "contact_force" not in data:
-        raise SystemExit(f"no trust map that kept the contact force; run {COMMAND.format('...')}")
+    if found is None or not set(_KEPT) <= set(data):
+        raise SystemExit(f"no trust map that kept {_KEPT}; run {COMMAND.format('...')}")
     return {
         "title": results.title,
         "command": COMMAND.format(results.name),
@@ -53,6 +55,7 @@ def compact(results: StudyResults) -> dict:
         "errors": _rounded(found.errors.values),
         "own": None if found.own is None else _rounded(found.own.values),
         "refined": list(found.refined),
+        "not_refined": [name for name in _refinable(results.name) if name not in found.refined],
         "lost": _rounded(found.lost.values, 1),
         "patch": _rounded(found.patch),
         "radius": found.radius,
@@ -75,6 +78,14 @@ def study_of_a_cell(text: str) -> str:
     return f'title = "A cell of the trust map"\n{text}'
 
 
+def _refinable(name: str) -> list[str]:
+    """What the study's companions refine, computed or not."""
+    study = tomllib.loads(find_study(name).read_text("utf-8"))
+    files = [find_study(companion).read_text("utf-8") for companion in study["companions"]]
+    keys = [key for file in files for key in tomllib.loads(file)["refine"] if "." in key]
+    return [label(key.partition(".")[2]) for key in keys]
+
+
 def _failures(data) -> list:
     return data["failure"].transpose(*_AXES).values.tolist()
 
@@ -88,12 +99,11 @@ def _edges(found: TrustMap, data) -> list:
 
 
 def _signals(results: StudyResults, found: TrustMap) -> list:
-    """Of each cell: X of the first value and step [m], static load [N], N a count, and counts."""
+    """Of each cell what the irregularity causes: X of the first and step [m], N, and counts."""
     data = results.designs["sweep"].transpose(*_AXES, "run", "sample", ...)
     runs = [results.reference, *found.runs]
-    force = data["contact_force"].sel(run=runs).values
+    force, smooth = (data[name].sel(run=runs).values for name in _KEPT)
     position = data["position"].sel(run=results.reference).values
-    static = data["static"].sel(run=results.reference, signal="contact_force").values
     cells = np.full(force.shape[:3], None, dtype=object)
     for cell in np.ndindex(cells.shape):
         x = position[cell]
@@ -102,13 +112,12 @@ def _signals(results: StudyResults, found: TrustMap) -> list:
         if len(inside) == 0:
             continue
         at = inside[:: max(1, len(inside) // _POINTS)]
-        moved = force[cell][:, at] - static[cell]
-        count = max(np.nanmax(np.abs(moved)), 1e-6) / _COUNTS
+        part = (force[cell] - smooth[cell])[:, at]
+        count = max(np.nanmax(np.abs(part)), 1e-6) / _COUNTS
         cells[cell] = {
             "x": _rounded([x[at[0]], x[at[1]] - x[at[0]]], 8),
-            "static": _rounded(static[cell], 6),
             "count": _rounded(count),
-            "counts": np.rint(moved / count).astype(int).tolist(),
+            "counts": np.rint(part / count).astype(int).tolist(),
         }
     return cells.tolist()
 

@@ -63,9 +63,14 @@ def commands() -> str:
 def book(file: Path) -> dict[str, str]:
     """Page of each verification case, from what ``contactstudy verify`` wrote; and the list."""
     data = json.loads(file.read_text("utf-8"))
-    found = {case["name"]: case for case in data["cases"] if "checks" in case}
+    every = {case["name"]: case for case in data["cases"]}
+    found = {name: case for name, case in every.items() if "checks" in case}
     names = [case.name for case in CASES if case.name in found]
     rows = [f"| [{n}]({n}.md) | {found[n]['title']} | {found[n]['status']} |" for n in names]
+    for case in (case for case in CASES if case.name not in found):
+        why = every.get(case.name, {"status": "not in this run", "reason": ""})
+        told = ": ".join(part for part in (why["status"], why["reason"]) if part)
+        rows.append(f"| {case.name} | {_cell(case.about)} | {_cell(told)} |")
     versions = ", ".join(f"{name} {number}" for name, number in data["versions"].items())
     index = [
         "# Verification book",

@@ -141,7 +141,7 @@ function makeMap() {
 function makeSignals() {
   const { made, place } = plot("signals", {
     height: 360, tools: "pan,wheel_zoom,box_zoom,reset,save",
-    x_axis_label: "X (m)", y_axis_label: "contact force (kN)",
+    x_axis_label: "X (m)", y_axis_label: "force by the irregularity (kN)",
   });
   // the page scrolls over it
   made.toolbar.active_scroll = null;
@@ -225,7 +225,7 @@ function showSignals({ v, a, w }, plotted) {
     const counts = found ? found.counts[k] : [];
     sources[`run ${run}`].data = {
       x: counts.map((_, i) => found.x[0] + i * found.x[1]),
-      y: counts.map((c) => (found.static + c * found.count) / 1e3),
+      y: counts.map((c) => (c * found.count) / 1e3),
     };
   });
 }
@@ -263,7 +263,7 @@ function showText({ scheme, v, a, w, wave, amplitude, speed }) {
   }
   if (outside) parts.push("<b>Your values lie outside the map.</b>");
   $("answer").innerHTML = parts.join(" ");
-  $("cell").textContent = `${told}: the last three waves of the journey.`;
+  $("cell").textContent = `${told}: the last three waves of the journey, the contact force less that of the same run on a smooth rail.`;
   $("schemes").querySelectorAll("tr[data-run]").forEach((row, k) => {
     row.classList.toggle("chosen", k - 1 === scheme);
     if (k) row.lastChild.textContent = percent(TRUST.errors[k - 1][v][a][w]);
@@ -306,11 +306,12 @@ function showOrigin() {
   const all = [TRUST.wavelengths, TRUST.amplitudes, TRUST.speeds];
   const versions = Object.entries(TRUST.versions).map(([k, v]) => `${k} ${v}`).join(", ");
   const own = TRUST.own ? ` The reference's own error is the sum of its differences from finer ${TRUST.refined.join(", ")}.` : "";
+  const left = TRUST.not_refined.length ? ` It is not yet computed for ${TRUST.not_refined.join(", ")}.` : "";
   $("about-map").innerHTML =
     "Black: contours of equal error. White: limit of ISO 3095; dashed: amplitude of a third octave of the " +
     "paper's Table 1. Red crosses: the reference loses contact. Hatched: the reference's own error is more " +
     "than a third of the difference. Empty: not computed, a wheel cannot follow such waves. " +
-    `Click the map to choose a cell.${own}`;
+    `Click the map to choose a cell.${own}${left}`;
   $("origin").textContent =
     `Data: ${count} computed cells of a grid of ${all.map((v) => v.length).join(" × ")} ` +
     `(wavelengths ${length(all[0][0])} to ${length(all[0][all[0].length - 1])}, amplitudes ` +
