@@ -10,8 +10,6 @@ from contactstudy.study.kinds.passage.solid import Solid
 from contactstudy.study.results import StudyResults
 
 COMMAND = "contactstudy verify convergence"
-
-
 # keys of [solid] that decide the error
 _NUMERICS = (
     "section", "mesh_size", "coarse_mesh_size", "cell_length", "interface_modes", "internal_modes",
