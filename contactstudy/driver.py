@@ -25,6 +25,8 @@ from contactstudy.study.kind import find_kind
 from contactstudy.study.loading import load_companions
 from contactstudy.study.plan import Plan, collect, plan_study
 from contactstudy.study.results import (
+    PAGE_FILE,
+    REPORT_FILE,
     RUNS,
     StudyResults,
     read_results,
@@ -179,7 +181,9 @@ def _finished_results(plan: Plan) -> StudyResults | None:
     """Results of a plan when all its output files are there, whole and up to date."""
     sums = Store(plan.out_dir / RUNS).load(FINISHED, plan.key()).value
     try:
-        if sums and all(file_digest(plan.out_dir / name) == sums[name] for name in sums):
+        # an older program wrote no page
+        whole = sums and (PAGE_FILE in sums or REPORT_FILE not in sums)
+        if whole and all(file_digest(plan.out_dir / name) == sums[name] for name in sums):
             return read_results(plan.out_dir)
     except (OSError, InputError):  # a file is missing or damaged
         pass

@@ -16,7 +16,14 @@ from matplotlib.figure import Figure
 from contactstudy.exceptions import InputError
 from contactstudy.figures.signals import SIGNALS
 from contactstudy.files import write_file, writing
-from contactstudy.plot.style import PNG_DPI, figure_legend, figure_style, new_figure, run_styles
+from contactstudy.plot.style import (
+    PNG_DPI,
+    figure_legend,
+    figure_style,
+    legend_columns,
+    new_figure,
+    run_styles,
+)
 from contactstudy.study.results import StudyResults
 from contactstudy.validation import did_you_mean
 
@@ -25,6 +32,10 @@ _UNDATED = {
     "svg": {"Date": None},
     "pdf": {"CreationDate": None, "Creator": None, "Producer": None},
 }
+_TOLD_APART = 36
+"""Curves of a picture: six colours with six dash patterns."""
+_MOST = 1000
+"""Curves of a signal."""
 _SHOWN = {signal.name: signal for signal in SIGNALS}
 
 
@@ -47,7 +58,8 @@ class Trace:
     @property
     def label(self) -> str:
         """Of the curve."""
-        return ", ".join([self.run, *(f"{d} {v:g}" for d, v in self.labels.items())])
+        told = (v if isinstance(v, str) else f"{d} {v:g}" for d, v in self.labels.items())
+        return ", ".join([self.run, *told])
 
 
 def traces(
@@ -55,8 +67,8 @@ def traces(
 ) -> list[Trace]:
     """Choose signals of runs (of all without `runs`).
 
-    `over` is a coordinate; without it the position if the run has one, else that of the last
-    dimension.
+    `over` is a coordinate of numbers; without it the position if the run has one, else that of the
+    last dimension that has one.
 
     Raises
     ------
@@ -93,29 +105,36 @@ def traces(
 
 
 def _drawable(data: xr.Dataset, signal: str) -> bool:
-    """Whether it is numbers over at least one dimension with a coordinate, the last one."""
-    if signal not in data.data_vars or not data[signal].dims:
+    """Whether it is numbers over at least one dimension with a coordinate of numbers."""
+    if signal not in data.data_vars:
         return False
-    last, numbers = data[signal].dims[-1], np.issubdtype(data[signal].dtype, np.number)
-    return bool(numbers and _abscissae(data[signal], last))
+    return bool(np.issubdtype(data[signal].dtype, np.number) and _abscissae(data[signal]))
 
 
-def _abscissae(values: xr.DataArray, last: Any) -> list[str]:
-    """Coordinates along the last dimension, the position first."""
-    names = [
-        str(n) for n, c in values.coords.items() if last in c.dims and set(c.dims) <= {*values.dims}
-    ]
-    return sorted(names, key=lambda name: (name != "position", name != last))
+def _abscissae(values: xr.DataArray) -> dict[str, Any]:
+    """Coordinates of numbers and their dimensions: those of the last first, a position before."""
+    found: dict[str, Any] = {}
+    numbers = {str(n): c for n, c in values.coords.items() if np.issubdtype(c.dtype, np.number)}
+    for dim in reversed(values.dims):
+        names = [n for n, c in numbers.items() if dim in c.dims and set(c.dims) <= {*values.dims}]
+        for name in sorted(names, key=lambda name: (name != "position", name != dim)):
+            found.setdefault(name, dim)
+    return found
 
 
 def _of_run(run: str, data: xr.Dataset, signal: str, over: str) -> Iterator[Trace]:
-    values = data[signal]
-    last = values.dims[-1]
-    names = _abscissae(values, last)
+    values, names = data[signal], _abscissae(data[signal])
     if over and over not in names:
         raise InputError(f"--over {over}: {signal} of {run} is over {', '.join(names)}")
-    name = over or names[0]
+    name = over or next(iter(names))
+    values = values.transpose(..., names[name])
     others = values.dims[:-1]
+    count = int(np.prod([values.sizes[d] for d in others]))
+    if count > _MOST:
+        raise InputError(
+            f"--over {name}: {signal} of {run} has {count} curves, more than {_MOST}; choose "
+            f"another of {', '.join(names)}"
+        )
     for place in np.ndindex(*(values.sizes[d] for d in others)):
         one = values.isel(dict(zip(others, place, strict=True)))
         labels = {
@@ -156,13 +175,16 @@ def write_traces(found: Sequence[Trace], reference: str | None, path: Path) -> N
     Raises
     ------
     InputError
-        For another ending.
+        For another ending, and more curves than a picture can tell apart.
     """
     if path.suffix == ".csv":
         write_file(path, _table(found))
         return
     if path.suffix[1:] not in _UNDATED:
         raise InputError(f"--out {path}: must end in .csv, .pdf, .png or .svg")
+    if (curves := len({t.label for t in found})) > _TOLD_APART:
+        told = f"{curves} curves, more than the {_TOLD_APART} that a picture can tell apart"
+        raise InputError(f"--out {path}: {told}; choose some, or write all of them as .csv")
     with figure_style():
         figure = _figure(found, reference)
         with writing(path) as unfinished:
@@ -174,7 +196,8 @@ def _figure(found: Sequence[Trace], reference: str | None) -> Figure:
     signals = list(dict.fromkeys(t.signal for t in found))
     runs = list(dict.fromkeys(t.label for t in found))
     styles = run_styles(runs, reference)
-    figure = new_figure(1.0 + 2.2 * len(signals))
+    rows = len(runs) / legend_columns(runs)
+    figure = new_figure(0.9 + 2.2 * len(signals) + 0.16 * rows)
     panels = figure.subplots(len(signals), 1, squeeze=False, sharex=True)[:, 0]
     for axes, signal in zip(panels, signals, strict=True):
         own = [t for t in found if t.signal == signal]
@@ -209,8 +232,9 @@ def _table(found: Sequence[Trace]) -> str:
     out = io.StringIO()
     rows = csv.writer(out, lineterminator="\n")
     first = found[0]
+    group = "group" if "run" in dims else "run"
     head = [f"{first.abscissa} ({first.abscissa_unit})", *(f"{s} ({units[s]})" for s in signals)]
-    rows.writerow(["run", *dims, *head])
+    rows.writerow([group, *dims, *head])
     for key, own in groups.items():
         x = next(iter(own.values())).x
         columns = [

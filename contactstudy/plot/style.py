@@ -1,7 +1,7 @@
 """The one style of all figures: size, fonts, colours, line styles, and how a figure is saved."""
 
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -201,6 +201,9 @@ def figure_legend(figure: Figure, axes: Axes) -> None:
     """Put the legend of `axes` above all axes of the figure, where it hides no curve."""
     handles, labels = axes.get_legend_handles_labels()
     if handles:
-        # As many columns as the width holds at about 90 characters a line.
-        columns = max(1, min(len(labels), 90 // (max(map(len, labels)) + 9)))
-        figure.legend(handles, labels, loc="outside upper center", ncols=columns)
+        figure.legend(handles, labels, loc="outside upper center", ncols=legend_columns(labels))
+
+
+def legend_columns(labels: Sequence[str]) -> int:
+    """As many columns as the width holds at about 90 characters a line."""
+    return max(1, min(len(labels), 90 // (max(map(len, labels)) + 9)))

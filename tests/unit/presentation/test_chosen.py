@@ -1,6 +1,7 @@
 """Signals that a user chooses: the numbers of the results, and files that can be read."""
 
 import csv
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -49,6 +50,39 @@ def test_numbers_are_those_of_the_results(results):
     assert (first.label, second.label) == ("point, station 12", "point, station 18")
     np.testing.assert_array_equal(second.values, 2.0 * T)
     np.testing.assert_array_equal(second.x, T)
+
+
+def test_what_a_sweep_measured_is_drawn_over_its_key(results, tmp_path):
+    """Dimensions of texts (run, signal, part) tell curves apart."""
+    speed = ("journey.speed", [20.0, 40.0, 80.0], {"units": "m/s"})
+    data = xr.Dataset(
+        {"relative_l2": (("journey.speed", "run", "part"), np.arange(12.0).reshape(3, 2, 2))},
+        {"journey.speed": speed, "run": ["a", "b"], "part": ["total", "dynamic"]},
+    )
+    swept = StudyResults(**{**vars(results), "runs": {}, "groups": {"sweep": data}})
+    found = traces(swept, ["relative_l2"], [])
+    assert [t.label for t in found][1] == "sweep, a, dynamic"
+    np.testing.assert_array_equal(found[1].x, speed[1])
+    np.testing.assert_array_equal(found[1].values, [1.0, 5.0, 9.0])
+    write_traces(found, None, tmp_path / "a.csv")
+    head, first, *_ = list(csv.reader((tmp_path / "a.csv").open()))
+    assert head == ["group", "run", "part", "journey.speed (m/s)", "relative_l2 ()"]
+    assert first == ["sweep", "a", "total", "20.0", "0.0"]
+
+
+def test_too_many_curves_are_refused(results, tmp_path):
+    run = results.runs["point"]
+    run["field"] = (("instant", "time"), np.ones((2, 11)))
+    many = traces(results, ["contact_force"], []) * 20
+    for k, one in enumerate(many):
+        many[k] = replace(one, run=f"run {k}")
+    with pytest.raises(InputError, match="40 curves, more than the 36 that a picture"):
+        write_traces(many, None, tmp_path / "a.png")
+    long = run.isel(time=np.zeros(2000, dtype=int)).assign_coords(instant=[1.0, 2.0])
+    results.runs["point"] = long.assign_coords(time=np.arange(2000.0))
+    assert len(traces(results, ["field"], ["point"], over="time")) == 2
+    with pytest.raises(InputError, match="field of point has 2000 curves, more than 1000"):
+        traces(results, ["field"], ["point"], over="instant")
 
 
 def test_signals_over_different_abscissae_are_not_mixed(results):
