@@ -182,6 +182,7 @@ def write_traces(found: Sequence[Trace], reference: str | None, path: Path) -> N
         return
     if path.suffix[1:] not in _UNDATED:
         raise InputError(f"--out {path}: must end in .csv, .pdf, .png or .svg")
+    found = [t for t in found if np.isfinite(t.values).any()] or found
     if (curves := len({t.label for t in found})) > _TOLD_APART:
         told = f"{curves} curves, more than the {_TOLD_APART} that a picture can tell apart"
         raise InputError(f"--out {path}: {told}; choose some, or write all of them as .csv")
