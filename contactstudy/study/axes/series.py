@@ -117,7 +117,7 @@ def _range(text: str, parameter: Parameter) -> list[Any] | None:
     if match["x"]:
         numbers = _by_factor(*ends, _ratio(match["x"]))
     elif match["by"]:
-        numbers = _by(*ends, match["by"], "" if of else parameter.unit, parameter.limits.whole)
+        numbers = _by(*ends, match["by"], "" if of else parameter.unit)
     elif parameter.limits.whole:
         numbers = by_step(*ends, 1.0)
     else:
@@ -150,7 +150,7 @@ def _ratio(text: str) -> float:
     return to_si(text.strip(), "")
 
 
-def _by(first: float, last: float, text: str, unit: str, whole: bool) -> list[float]:
+def _by(first: float, last: float, text: str, unit: str) -> list[float]:
     """Steps, which have the key's unit, or a number of values."""
     spaced = _SPACED.fullmatch(text.strip())
     bare = _number(spaced[1] if spaced else text, Limits(whole=True))
