@@ -12,7 +12,7 @@ from contactstudy.exceptions import ContactStudyError, InputError
 
 
 def advise(
-    study: str,
+    study: Path,
     *,
     out: Out = Path("advice"),
     bound: Annotated[str, Parameter(help='Error that is borne, e.g. "5 %" or 0.05.')] = "5 %",

@@ -8,7 +8,7 @@ from contactstudy.commands.options import TALKING, Json, Overrides, Quick, Sweep
 
 
 def check(
-    study: str,
+    study: Path,
     *,
     overrides: Overrides = (),
     sweep: Sweep = (),

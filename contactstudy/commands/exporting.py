@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from contactstudy.commands.options import Out, Overrides
 
 
 def export(
-    study: str,
+    study: Path,
     *,
     out: Out,
     run: str | None = None,

@@ -44,7 +44,7 @@ USUAL = Ways()
 
 
 def run(
-    study: str,
+    study: Path,
     *,
     out: Out,
     overrides: Overrides = (),

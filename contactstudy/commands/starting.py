@@ -11,9 +11,9 @@ from cyclopts import Parameter
 def new(
     file: Path,
     *,
-    like: Annotated[
-        str, Parameter(help="Shipped study, or a file, that it starts from.")
-    ] = "point_vs_surface",
+    like: Annotated[Path, Parameter(help="Shipped study, or a file, that it starts from.")] = Path(
+        "point_vs_surface"
+    ),
 ) -> None:
     """Write a commented study file to start from.
 
@@ -22,7 +22,9 @@ def new(
     file
         To write, e.g. mine.toml; it must not be there yet.
     """
+    import shlex
+
     from contactstudy.study.new import write_new
 
     write_new(file, like)
-    print(f"{file}: change it, then: contactstudy check {file}")
+    print(f"{file}: change it, then: contactstudy check {shlex.quote(str(file))}")

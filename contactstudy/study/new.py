@@ -27,7 +27,7 @@ _HEAD = """\
 """
 
 
-def write_new(path: Path, study: str) -> None:
+def write_new(path: Path, study: str | Path) -> None:
     """Write the file `path`, which must not be there, from a study's file.
 
     Raises
@@ -42,7 +42,7 @@ def write_new(path: Path, study: str) -> None:
     write_file(path, new_study(study))
 
 
-def new_study(study: str) -> str:
+def new_study(study: str | Path) -> str:
     """Text of a study file that means what the file of `study` means."""
     data = toml_file(find_study(study))
     kind = kind_of_file(data)

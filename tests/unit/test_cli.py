@@ -36,8 +36,10 @@ SHORT = 'title = "A short one"' + POINT + HERTZ
 def render(results, out_dir, reporter):
     """Stands for figures and report, which have their own tests."""
     (out_dir / "figures").mkdir(exist_ok=True)
-    (out_dir / "report.pdf").write_bytes(b"%PDF")
-    return [out_dir / "report.pdf"]
+    files = [out_dir / "report.pdf", out_dir / "report.html"]
+    for file in files:
+        file.write_bytes(b"%PDF")
+    return files
 
 
 @pytest.fixture
@@ -197,12 +199,29 @@ def test_a_second_call_computes_and_draws_nothing(capfd, short, out, monkeypatch
     assert before == {p: p.read_bytes() for p in out.rglob("*") if p.is_file()}
 
 
-def test_a_missing_figure_or_report_is_made_again_from_finished_runs(short, out, monkeypatch):
-    (out / "report.pdf").unlink()
+@pytest.mark.parametrize("name", ["report.pdf", "report.html"])
+def test_a_missing_figure_or_report_is_made_again_from_finished_runs(short, out, monkeypatch, name):
+    (out / name).unlink()
     before = (out / "result.nc").read_bytes()
     monkeypatch.setattr(compute, "run_tasks", lambda *a, **k: pytest.fail("must not compute"))
     assert cli.main(["run", str(short), "--out", str(out)]) == 0
-    assert (out / "report.pdf").exists() and (out / "result.nc").read_bytes() == before
+    assert (out / name).exists() and (out / "result.nc").read_bytes() == before
+
+
+def test_results_of_a_program_without_the_page_get_one(short, tmp_path, monkeypatch):
+    """Nothing is computed for it."""
+    out = tmp_path / "out"
+
+    def older(results, out_dir, reporter):
+        return render(results, out_dir, reporter)[:1]
+
+    with monkeypatch.context() as patch:
+        patch.setattr(driver, "render", older)
+        assert cli.main(["run", str(short), "--out", str(out)]) == 0
+    (out / "report.html").unlink()
+    monkeypatch.setattr(compute, "run_tasks", lambda *a, **k: pytest.fail("must not compute"))
+    assert cli.main(["run", str(short), "--out", str(out)]) == 0
+    assert (out / "report.html").exists()
 
 
 def test_a_changed_value_computes_only_what_it_concerns(short, out):

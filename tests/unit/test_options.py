@@ -60,20 +60,27 @@ def test_quiet_says_nothing_and_verbose_more(short, tmp_path, capfd):
 
 @pytest.mark.parametrize(
     ("typed", "completed"),
-    [("contactstudy rep", "reproduce"), ("contactstudy run --work", "--workers")],
+    [
+        ("contactstudy rep", "reproduce"),
+        ("contactstudy run --work", "--workers"),
+        ("contactstudy check mi", "mine.toml"),
+        ("contactstudy new other.toml --like mi", "mine.toml"),
+    ],
 )
-def test_bash_completes_commands_and_options(typed, completed, tmp_path, capfd):
+def test_bash_completes_commands_options_and_files(typed, completed, tmp_path, capfd):
     if not (bash := shutil.which("bash")):
         pytest.skip("there is no bash")
     assert cli.main(["completion", "bash"]) == 0
     (tmp_path / "completion.sh").write_text(capfd.readouterr().out, "utf-8")
+    (tmp_path / "mine.toml").touch()
     words = typed.split()
     script = (
         f"source {tmp_path / 'completion.sh'}; COMP_WORDS=({typed}); "
         f"COMP_CWORD={len(words) - 1}; COMP_LINE='{typed}'; COMP_POINT={len(typed)}; "
         f'_contactstudy contactstudy {words[-1]} {words[-2]}; echo "${{COMPREPLY[@]}}"'
     )
-    made = subprocess.run([bash, "-c", script], capture_output=True, text=True, check=True)
+    told = {"capture_output": True, "text": True, "check": True, "cwd": tmp_path}
+    made = subprocess.run([bash, "-c", script], **told)
     assert completed in made.stdout.split()
     assert made.stderr == ""
 
