@@ -96,11 +96,11 @@ def subject(results: StudyResults) -> list[Block]:
         + ", ".join(_told(results, f"runs.{name}.{k}", v) for k, v in chosen(results, run).items())
         for name, run in runs.items()
     ]
-    rows = [
-        [title_of(key), _values(results, name, key), how]
-        for name, data in results.designs.items()
-        for key, how in _how(data).items()
-    ]
+    rows = []  # of keys that several designs vary alike, one
+    for name, data in results.designs.items():
+        for key, how in _how(data).items():
+            if (row := [title_of(key), _values(results, name, key), how]) not in rows:
+                rows.append(row)
     columns = ["Key", "Values", "How"]
     varied = table(columns, rows, "Keys that are varied.", 3) | {"size": 8.5}
     return [*([bullets(listed)] if listed else []), varied]

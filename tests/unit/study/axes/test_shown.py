@@ -8,7 +8,7 @@ from contactstudy.driver import compute_study
 from contactstudy.figures.axes import drawings
 from contactstudy.figures.axes.maps import edges
 from contactstudy.plot.style import figure_style
-from contactstudy.report.axes import abstract, parts
+from contactstudy.report.axes import abstract, parts, subject
 from contactstudy.study.axes.axis import AxisOf, axis_of
 from contactstudy.study.axes.tables import tables
 from contactstudy.study.loading import load_study
@@ -55,6 +55,14 @@ def test_a_refinement_at_each_point_of_a_sweep(swept):
     text = '[refine]\n"law.x" = [0.8, 0.4, 0.2, 0.1]\n[sweep]\n"law.order" = [1, 2]\n'
     found = swept(text).designs["refine.law.x"]["largest_order"].sel(run="power")
     np.testing.assert_allclose(found, [1, 2], rtol=1e-6)
+
+
+def test_keys_that_all_refinements_share_are_listed_once(swept):
+    text = '[refine]\n"law.x" = [0.8, 0.4, 0.2]\n"law.scale" = [3, 2, 1]\n'
+    *_, listed = subject(swept(text + '[sweep]\n"law.order" = [1, 2]\n'))
+    assert [(row[1], row[2]) for row in listed["rows"]] == [
+        ("1, 2", "grid"), ("0.8 m, 0.4 m, 0.2 m", "refined"), ("3, 2, 1", "refined"),
+    ]  # fmt: skip
 
 
 def test_the_distribution_of_seeds_is_recovered(swept):
