@@ -22,6 +22,7 @@ from contactstudy.study.kind import Marks
 FEW = 4
 """Values of a second key for which there are panels or lines."""
 _CAPTION = 8  # lines that a caption describes
+_ENDS = 4  # lines whose smallest and largest values it places
 _MARKED = (("Dashed", (0, (4, 2))), ("Dotted", (0, (1, 2))))
 MarksOf = Callable[[str], Sequence[Marks]]
 """What is marked along a key."""
@@ -114,8 +115,11 @@ def _line(
 
 def _caption(quantity: Shown, long: str, short: list[str]) -> str:
     along, curves = axis_of(quantity.data, long), _curves(quantity, long, short)
+    # of many lines the places of both ends, which the table has, are left out
+    names = along.names if len(curves) <= _ENDS else None
+    one_panel = len({panel for panel, _ in curves}) == 1 and len(curves) > 1
     told = [
-        f"{', '.join(part for part in place if part)} {parts.ends(values, along.names)}".strip()
+        f"{', '.join(place[one_panel:]).removeprefix(', ')} {parts.ends(values, names)}".strip(", ")
         for place, (values, _) in list(curves.items())[:_CAPTION]
     ]
     text = f"{capital(quantity.title)} over the {along.title}"

@@ -94,12 +94,14 @@ def mark_failed(axes: Axes, at: Array) -> None:
         )
 
 
-def ends(values: Array, names: tuple[str, ...]) -> str:
-    """Smallest and largest of values (n,), and where they are."""
+def ends(values: Array, names: tuple[str, ...] | None) -> str:
+    """Smallest and largest of values (n,), and where they are if the places have names."""
     there = np.flatnonzero(np.isfinite(values))
     if not len(there):
         return "nowhere"
     low, high = there[np.argmin(values[there])], there[np.argmax(values[there])]
+    if names is None:
+        return " to ".join(dict.fromkeys(number(values[k]) for k in (low, high)))
     if low == high:
         return f"{number(values[low])} at {names[low]}"
     return f"{number(values[low])} (at {names[low]}) to {number(values[high])} (at {names[high]})"

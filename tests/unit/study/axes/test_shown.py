@@ -92,6 +92,10 @@ def test_samples_are_counted_in_whole_numbers(swept):
         ('"law.x" = [1, 2, 3]', "power 6.00 (at 1 m) to 14.0 (at 3 m)"),
         ('"law.word" = ["a", "b"]', "power 6.00 at a"),
         ('"law.x" = [1, 2, 3]\n"law.scale" = [1, 2]', "2, power 7.00 (at 1 m) to 23.0 (at 3 m)"),
+        (
+            '"law.x" = [1, 2, 3]\n"law.scale" = [1, 2, 3]',
+            "1, shared 1.00; 2, shared 2.00; 3, shared 3.00; 1, power 6.00 to 14.0; 2, power 7.00",
+        ),
         ('"law.x" = [1, 2, 3]\n"law.seed" = [1, 2]', "Means of 2 samples"),
         (
             '"law.x" = "1 m to 5 m by 1 m"\n"law.scale" = "1 to 6 by 1"',
