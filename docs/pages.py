@@ -8,6 +8,7 @@ import os
 import shutil
 from pathlib import Path
 
+import error_study
 import explorer
 
 from contactstudy import cli
@@ -28,6 +29,8 @@ def write(docs: Path) -> None:
     _save(docs / "reference" / "commands.md", commands())
     for name, text in book(docs / BOOK).items():
         _save(docs / "book" / f"{name}.md", text)
+    found = json.loads((docs / error_study.DATA).read_text("utf-8"))
+    _save(docs / "how_wrong.md", error_study.page(found))
     data = json.loads((docs / explorer.DATA).read_text("utf-8"))
     _save(docs / "generated" / "trust_map.js", explorer.script(data))
     for name in _SCRIPTS:

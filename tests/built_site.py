@@ -9,7 +9,7 @@ from contactstudy.verification.outcome import judged, write_json
 
 ROOT = Path(__file__).parents[1]
 DOCS = ROOT / "docs"
-GENERATED = ("book", "reference", "generated", "examples", "made")
+GENERATED = ("book", "reference", "generated", "examples", "made", "how_wrong.md")
 
 
 def build(work: Path, whole: bool = False) -> Path:

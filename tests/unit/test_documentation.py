@@ -1,5 +1,6 @@
 """The documentation: it builds without a warning, and its commands and links are real."""
 
+import html
 import html.parser
 import importlib.util
 import json
@@ -43,6 +44,28 @@ def test_numbers_of_the_book_are_those_of_the_run(site):
     for part in ("Two times two.", "4.004 mm", "0.1 %", "0.2 %", "1024", "Powers | of two"):
         assert part in text
     assert "9.9" in (site / "book" / "index.html").read_text("utf-8")
+
+
+def test_how_wrong_says_what_the_results_say(site):
+    studies = json.loads((DOCS / "error_study.json").read_text("utf-8"))
+    text = (site / "how_wrong.html").read_text("utf-8")
+    plain = " ".join(html.unescape(re.sub(r"<[^>]*>", "", text)).split())
+    assert len(studies) > 1
+    for study in studies:
+        for said in (study["title"], study["command"], study["code"], *study["told"]):
+            assert letters(said) in letters(plain)
+        for figure in study["figures"]:
+            assert f"_images/{figure['file']}" in text
+            assert (site / "_images" / figure["file"]).is_file()
+        for block in study["conclusion"]:
+            for row in block.get("rows", []):
+                assert all(letters(cell) in letters(plain) for cell in row)
+    assert sum(path.stat().st_size for path in (DOCS / "error_study").iterdir()) < 2e6
+
+
+def letters(text):
+    """Letters and digits alone: Sphinx sets its own quotation marks, dashes and spaces."""
+    return "".join(c for c in text if c.isalnum())
 
 
 PAGE = """
