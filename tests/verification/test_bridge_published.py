@@ -6,8 +6,10 @@ import numpy as np
 import pytest
 from scipy.signal import butter, cont2discrete, lfilter, sosfiltfilt, ss2tf
 
+from contactstudy.compare.bridge_codes import irregularity_increment
 from contactstudy.study.kinds.passage.execution import execute_run
 from contactstudy.study.kinds.passage.reading import parse_study
+from contactstudy.study.loading import load_study
 from contactstudy.track.deck import Antoing, GivenDeck
 from contactstudy.vehicle import AxleLoads, HighSpeedLoadModel
 
@@ -187,6 +189,26 @@ def test_moving_forces_predict_the_antoing_bridge(kmh):
     print(f"{kmh:.0f} km/h: {1e3 * springs.min():.3f} mm, peak {peak:+.2%}, L2 {difference:.2%}")
     assert abs(peak) < 0.02
     assert difference < 0.05
+
+
+def test_irregularity_adds_less_than_en_1991_2_allows_for():
+    """phi'' of annex C, over samples of the shipped study; the deck's acceleration grows more."""
+    found, smooth = [], None
+    for seed in range(3, 7):
+        study = load_study("bridge_irregularity", {"irregularity.seed": seed})
+        if smooth is None:
+            smooth = execute_run(study, "smooth").isel(station=0)
+        found.append(execute_run(study, "rough").isel(station=0))
+    deck, speed = study.track.structure.deck, study.journey.speed
+    allowed = irregularity_increment(speed, deck.frequency(15.0), 15.0)
+    static, still = np.abs(smooth.deck_static).max(), np.abs(smooth.deck_displacement).max()
+    added = [float((np.abs(one.deck_displacement).max() - still) / static) for one in found]
+    print(f"phi'' {allowed:.4f}, added", *(f"{one:+.4f}" for one in added))
+    assert allowed == pytest.approx(0.0412, rel=1e-3)
+    assert max(added) < allowed
+    assert np.ptp(added) > 0.1 * allowed
+    shaken = np.mean([float(np.abs(one.deck_acceleration).max()) for one in found])
+    assert shaken > 1.5 * float(np.abs(smooth.deck_acceleration).max())
 
 
 def test_the_deck_of_the_benchmark_has_its_frequency():
