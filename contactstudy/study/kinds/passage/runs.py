@@ -132,8 +132,13 @@ class PointRun(Run):
 
     @property
     def stepper(self) -> str:
-        """As in `Run`; a rigid contact needs numerical damping."""
-        return self.integrator or ("generalised_alpha" if self.rigid else "average_acceleration")
+        """As in `Run`; a rigid contact needs numerical damping, and so do moving forces.
+
+        Constant forces that pass from element to element make accelerations of the rail ring: they
+        have no wheel whose mass could give way.
+        """
+        damped = self.rigid or self.law == "moving_force"
+        return self.integrator or ("generalised_alpha" if damped else "average_acceleration")
 
     @property
     def undamped(self) -> bool:
