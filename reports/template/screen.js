@@ -83,10 +83,12 @@ const draw = {
     const source = new Bokeh.ColumnDataSource({ data: { xs, ys } });
     return plot.patches({ field: "xs" }, { field: "ys" }, { source, ...filling(shape) });
   },
-  bars(plot, shape) {
+  bars(plot, shape, own) {
     const names = ["left", "right", "bottom", "top"];
     const columns = Object.fromEntries(names.map((name) => [name, values(shape[name])]));
-    if (plot.y_range.start > 0) columns.bottom.fill(plot.y_range.start / 1e6); // of a log scale
+    // on a logarithmic scale they begin below all that is seen
+    if (shape.upright && own.y.logarithmic) columns.bottom.fill(own.y.low / 1e9);
+    if (!shape.upright && own.x.logarithmic) columns.left.fill(own.x.low / 1e9);
     const source = new Bokeh.ColumnDataSource({ data: columns });
     const fields = Object.fromEntries(names.map((name) => [name, { field: name }]));
     return plot.quad({ ...fields, source, ...filling(shape) });
@@ -193,7 +195,7 @@ function panel(own, drawn, element) {
     ticks(second, own.above);
     plot.add_layout(second, "above");
   }
-  const made = own.shapes.map((shape) => draw[shape.kind](plot, shape));
+  const made = own.shapes.map((shape) => draw[shape.kind](plot, shape, own));
   own.shapes.filter((shape) => shape.bar).forEach((shape) => bar(plot, shape));
   return [plot, made];
 }

@@ -156,6 +156,38 @@ def test_a_map_tells_its_value(opened):
     assert min(abs(value / peak - 1.0)) < 0.01
 
 
+def test_bars_begin_below_what_is_seen_on_logarithmic_scales(browser, tmp_path):
+    """Zero is nowhere there."""
+
+    def draw(figure):
+        lying, standing = figure.subplots(2, 1)
+        lying.barh([1.0, 2.0], [0.1, 10.0], 0.5, color="#ff0000")
+        lying.set(xscale="log", xlim=(0.01, 20.0))
+        standing.bar([1.0, 2.0], [0.1, 10.0], 0.5, color="#ff0000")
+        standing.set(yscale="log", ylim=(0.01, 20.0))
+
+    with figure_style():
+        draw(figure := new_figure(3.0))
+        figure.draw_without_rendering()
+        panels = panels_of(figure)
+    place = '<html><head></head><body><h2>A</h2><div data-figure="f/bars.pdf"></div></body></html>'
+    (tmp_path / "a.html").write_text(screen_page(place, {"f/bars.pdf": panels}, tmp_path), "utf-8")
+    browser.open(tmp_path / "a.html")
+    script = drawn(browser, "bars") + (
+        "return views.map(({ model }) => model.renderers[0].data_source.data)"
+        ".map(({ left, right, bottom, top }) => [left, right, bottom, top].map((v) => [...v]))"
+    )
+    lying, standing = browser.run(script)
+    for (low, high), (other_low, other_high) in (
+        (lying[:2], lying[2:]),
+        (standing[2:], standing[:2]),
+    ):
+        assert max(low) < 0.01 and min(low) > 0.0 and high == pytest.approx([0.1, 10.0])
+        assert other_low == pytest.approx([0.75, 1.75])
+        assert other_high == pytest.approx([1.25, 2.25])
+    assert browser.errors() == []
+
+
 def test_a_drawn_box_zooms_both_panels(opened):
     from selenium.webdriver import ActionChains
 
