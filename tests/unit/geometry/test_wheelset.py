@@ -79,3 +79,19 @@ def test_impossible_wheelsets():
 
 def standard(profile, **dimensions):
     return Wheelset(wheel=wheel_curve(profile), rail=rail_curve(), radius=0.43, **dimensions)
+
+
+def test_wheelsets_of_equal_dimensions_keep_their_own_profiles():
+    """A cone of 1:20: the radii differ by 2 y/20 when it is shifted by y, whatever ran before."""
+    rail, y = rail_curve("60E1"), 2e-3
+    differences = []
+    for profile in ("S1002", "cone"):
+        wheelset = Wheelset(wheel=wheel_curve(profile), rail=rail, radius=0.46)
+        roll = wheelset.rest_roll(y, 0.0)
+        down = [
+            wheelset.wheel.point(wheelset.geometry(side, y, 0.0, roll).touch.wheel_s)[1]
+            for side in ("right", "left")
+        ]
+        differences.append(down[1] - down[0])
+    assert differences[1] == pytest.approx(2 * y / 20, rel=0.06)  # roll moves the touch a little
+    assert differences[0] > 2 * differences[1]
