@@ -50,13 +50,15 @@ def screen_page(text: str, figures: Mapping[str, Panels], out_dir: Path) -> str:
     """
     files = _PLACE.findall(text)
     drawn = {file: figures[file] for file in files if file in figures}
-    text = _PLACE.sub(lambda m: m[0] if m[1] in drawn else _picture(out_dir / m[1]), text)
+    moving = sum((out_dir / file).with_suffix(".gif").is_file() for file in files)
+    most = LARGEST_ANIMATION / max(moving, 1)
+    text = _PLACE.sub(lambda m: m[0] if m[1] in drawn else _picture(out_dir / m[1], most), text)
     head, foot = f"<style>{_template('screen.css')}</style>", ""
     if drawn:
         scripts = [*map(_bokeh, _SCRIPTS), _template("screen.js")]
         room = LARGEST - sum(len(part.encode()) for part in (text, head, *scripts))
-        data, most = packed(drawn, room)
-        told = _TOLD + (_THINNED.format(most) if most else "")
+        data, points = packed(drawn, room)
+        told = _TOLD + (_THINNED.format(points) if points else "")
         text = text.replace("<h2", f'<p class="note">{told}</p><h2', 1)
         inert = data.replace("<", "\\u003c")  # no text ends the element
         foot = f'<script id="figures" type="application/json">{inert}</script>'
@@ -64,12 +66,12 @@ def screen_page(text: str, figures: Mapping[str, Panels], out_dir: Path) -> str:
     return text.replace("</head>", f"{head}</head>", 1).replace("</body>", f"{foot}</body>")
 
 
-def _picture(file: Path) -> str:
-    """An image of at most 256 colours, which a drawing does with, or its animation beside it."""
+def _picture(file: Path, largest: float) -> str:
+    """An image of 256 colours, which a drawing does with, or its animation if that is no larger."""
     from PIL import Image
 
     animation = file.with_suffix(".gif")
-    if animation.is_file() and animation.stat().st_size <= LARGEST_ANIMATION:
+    if animation.is_file() and animation.stat().st_size <= largest:
         with Image.open(animation) as picture:
             width = round(picture.width * _CSS_INCH / GIF_DPI)
         return _image("gif", animation.read_bytes(), width)

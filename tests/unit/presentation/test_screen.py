@@ -60,6 +60,24 @@ def test_it_is_one_file_of_bounded_size(made):
     assert "<link" not in markup and "@import" not in markup and "url(" not in markup
 
 
+def test_a_page_of_long_runs_is_thinned_and_says_so(tmp_path):
+    """A dozen figures of eight runs with 20,000 steps each would be 20 MB."""
+    x = np.linspace(0.0, 100.0, 20_000)
+    shown = {}
+    with figure_style():
+        for k in range(12):
+            axes = (figure := new_figure(2.0)).add_subplot()
+            for j in range(8):
+                axes.plot(x, np.sin(3.0 * x + j) + k)
+            figure.draw_without_rendering()
+            shown[f"{k}.pdf"] = panels_of(figure)
+    places = "".join(f'<div data-figure="{name}"></div>' for name in shown)
+    page = screen_page(f"<html><head></head><body><h2>A</h2>{places}</body>", shown, tmp_path)
+    assert 4e6 < len(page.encode()) < LARGEST
+    points = int(re.search(r"Of a curve with more than (\d+) points", page)[1])
+    assert 1000 < points < 20_000
+
+
 def test_it_has_the_text_of_the_report(made):
     study, page, _ = made
     told = words(page.read_text("utf-8"))
