@@ -27,12 +27,13 @@ class PassageKind(Kind):
     measuring = f"{_HERE}.measures:measure"
     refining = f"{_HERE}.measures:against_finest"
     shown: ClassVar = (
+        # of bridges first, for an abstract tells the first
+        Quantity("amplification", "Dynamic factor of the deck"),
         Quantity("relative_l2", f"Error of the {_NAME}, {{part}} part (%)", _PART, 100.0),
         Quantity("relative_l2", f"Error of the {_NAME}, total (%)", _TOTAL, 100.0),
         Quantity("largest", f"Largest {_NAME} (kN)", {"signal": (_FORCE,)}, 1e-3),
         Quantity("largest_of_deck", "Largest displacement of the deck (mm)", _DECK[0], 1e3),
         Quantity("largest_of_deck", "Largest acceleration of the deck (m/s²)", _DECK[1]),
-        Quantity("amplification", "Dynamic factor of the deck"),
         Quantity("lost_time", "Time without contact (ms)", {}, 1e3),
         Quantity("lost_length", "Way without contact (mm)", {}, 1e3),
         Quantity("impulse", "Impulse beyond the static load (N s)"),
