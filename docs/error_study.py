@@ -50,11 +50,11 @@ def _figure(study: str, block: dict) -> dict:
 
 
 def shrink(source: Path, target: Path) -> None:
-    """A figure with few colours, no wider than a page needs."""
+    """A figure of 256 colours, no wider than a page needs."""
     with Image.open(source) as picture:
         height = round(picture.height * min(1.0, _WIDTH / picture.width))
         small = picture.convert("RGB").resize((min(_WIDTH, picture.width), height), Image.LANCZOS)
-        small.quantize(64).save(target, optimize=True)
+        small.quantize(256, kmeans=2).save(target, optimize=True)
 
 
 def page(studies: list[dict]) -> str:
