@@ -252,6 +252,43 @@ def test_it_fits_a_phone_and_follows_the_systems_colours(made, browser, width, d
     assert browser.errors() == []
 
 
+def touch(send, places):
+    """Put a finger down, move it along, and take it off."""
+    for k, (x, y) in enumerate(places):
+        at = {"type": "touchMove" if k else "touchStart", "touchPoints": [{"x": x, "y": y}]}
+        send("Input.dispatchTouchEvent", at)
+        time.sleep(0.02)
+    send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+
+
+def test_a_finger_scrolls_the_page_and_a_tap_reads(made, browser):
+    """Figures do not catch what moves the page on a phone."""
+    _, page, _ = made
+    send = browser.driver.execute_cdp_cmd
+    browser.show(390, 800)
+    send("Emulation.setTouchEmulationEnabled", {"enabled": True})
+    try:
+        browser.open(page)
+        script = drawn(browser, "contact_force")
+        x, y = browser.run(
+            f"{script} const r = plot.canvas_view.el.getBoundingClientRect();"
+            "return [r.left + r.width / 2, r.top + r.height / 2]"
+        )
+        touch(send, [(x, y)])
+        told = f"{script} return box.querySelector('output').textContent"
+        deadline = time.monotonic() + 5
+        while "point: " not in browser.run(told) and time.monotonic() < deadline:
+            time.sleep(0.05)
+        assert re.search(r"point: [\d.]+", browser.run(told))
+        before = browser.run("return scrollY")
+        touch(send, [(x, y - 15 * k) for k in range(11)])
+        while browser.run("return scrollY") < before + 100 and time.monotonic() < deadline:
+            time.sleep(0.05)
+        assert browser.run("return scrollY") > before + 100
+    finally:
+        send("Emulation.setTouchEmulationEnabled", {"enabled": False})
+
+
 def test_every_picture_is_one(opened):
     _, browser = opened
     sizes = browser.run("return [...document.images].map((image) => image.naturalWidth)")

@@ -33,8 +33,10 @@ TINY = (
 
 def render(results, out_dir, reporter):
     """Stands for figures and report, which have their own tests."""
-    (out_dir / "report.pdf").write_bytes(b"%PDF")
-    return [out_dir / "report.pdf"]
+    files = [out_dir / "report.pdf", out_dir / "report.html"]
+    for file in files:
+        file.write_bytes(b"%PDF")
+    return files
 
 
 @pytest.mark.slow
@@ -50,6 +52,10 @@ def test_all_files_are_written_and_found_again(tmp_path, monkeypatch):
     assert below["von_mises"].max() == pytest.approx(float(run["von_mises"][0]), rel=0.03)
     status = meshio.read(files[0]).point_data["contact_status"]
     assert 0.9 < status.max() < 1.0 + 1e-9 and status.min() == 0.0
+    nodes = meshio.read(files[0])
+    x, y = (xr.DataArray(1e3 * at) for at in nodes.points[:, :2].T)
+    mapped = run.pressure_map.isel(instant=0).sel(patch_x=x, patch_y=y, method="nearest")
+    np.testing.assert_array_equal(mapped.values, nodes.point_data["pressure"])
     with Image.open(files[3]) as image:
         assert image.n_frames == 3
     stored = xr.load_dataset(out / "result.nc", engine="h5netcdf", group="surface")
