@@ -1,6 +1,7 @@
 """Relations between tables: time step, waves, bays, contact, mesh, sizes, unusual values."""
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -140,3 +141,16 @@ def test_the_stiffest_contact_of_a_beam_is_its_dynamic_stiffness_at_its_shortest
 def test_dofs_of_a_beam_are_known_before_it_is_assembled(ends, inner, elements):
     beam = BeamTrack(Track(length=3.0, ends=ends), "timoshenko", elements, inner)
     assert beam.n_dofs_forecast == beam.n_dofs
+
+
+@pytest.mark.parametrize("wave", [0.301, 0.1337, 0.09, 0.0415])
+def test_the_step_that_is_suggested_is_short_enough(wave):
+    """Rounded to two digits it must not be the step that was found too long."""
+    sinusoid = {"spectrum": "sinusoid", "wavelength": f"{wave} m", "amplitude": "1 um"}
+    (step,) = re.findall(
+        r"irregularity\.wavelength: .* use at most (\S+) s",
+        said(irregularity=sinusoid, journey={"time_step": f"{wave / 83.4 / 7} s"}),
+    )
+    assert "irregularity.wavelength" not in said(
+        irregularity=sinusoid, journey={"time_step": f"{step} s"}
+    )

@@ -136,6 +136,8 @@ class Related:
         if steps >= STEPS_A_PERIOD:
             return
         needed = length / (self.journey.speed * STEPS_A_PERIOD)
+        digit = 10.0 ** (math.floor(math.log10(needed)) - 1)
+        needed = math.floor(needed / digit) * digit  # rounded up it would be too long again
         if steps < STEPS_SEEN:
             text = "must be longer than two time steps, or is taken for a longer one"
         else:
