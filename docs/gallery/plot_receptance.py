@@ -2,9 +2,9 @@
 Receptance of the track
 =======================
 
-How far the rail gives way under a harmonic unit force, in the middle of a bay and over a sleeper.
-Near 1 kHz the rail vibrates between the sleepers as between pins: there is a peak in mid-bay and a
-dip over the sleeper. The beam theory decides where it lies.
+How far the rail gives way under a harmonic unit force, in the middle of a bay and over a
+sleeper. Near 1 kHz the rail vibrates between the sleepers as between pins: there is a peak in
+mid-bay and a dip over the sleeper. The beam theory decides where it lies.
 """
 
 import matplotlib.pyplot as plt
@@ -32,8 +32,8 @@ axes.set(xlabel="Frequency (Hz)", ylabel="Receptance (m/N)")
 axes.legend()
 
 # %%
-# An Euler beam on pins has its first frequency at (π/l)² √(EI/m) / 2π. The pads, which are no pins,
-# leave the peak a little above it. Shear takes a quarter off.
+# An Euler beam on pins has its first frequency at (π/l)² √(EI/m) / 2π. The pads, which are no
+# pins, leave the peak a little above it. Shear takes a quarter off.
 
 rail = track.rail
 pinned = (np.pi / 0.6) ** 2 * np.sqrt(rail.bending_stiffness("Z") / rail.mass_per_length)
