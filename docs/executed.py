@@ -17,6 +17,7 @@ import io
 import os
 import re
 import shlex
+import shutil
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -42,7 +43,8 @@ def run_all(docs: Path) -> None:
         key, slip = store_key(text, None), folder / "key"
         if slip.is_file() and slip.read_text("utf-8") == key:
             continue
-        folder.mkdir(parents=True, exist_ok=True)
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir(parents=True)
         with contextlib.chdir(folder), _in_place():
             run_page(page.name, text)
         write_file(slip, key)
@@ -82,7 +84,7 @@ def run_page(name: str, text: str) -> None:
 
 def held_against(printed: str, shown: str, place: str) -> None:
     """Find the lines shown in what was printed, one after the other."""
-    at = 0
+    at, printed = 0, printed.replace("−", "-")
     for line in filter(str.strip, shown.splitlines()):
         numbers = re.findall(_NUMBER, line)
         for found in _pattern(line).finditer(printed, at):
@@ -95,20 +97,11 @@ def held_against(printed: str, shown: str, place: str) -> None:
 
 def _pattern(line: str) -> re.Pattern[str]:
     """Any numbers for its numbers, any space for its spaces, anything for an ellipsis."""
-    kinds = {"...": ".*?"}
-    parts = re.split(rf"(\.\.\.|\s+|{_NUMBER})", line.strip())
+    parts = re.split(rf"(\s*\.\.\.\s*|\s+|{_NUMBER})", line.strip())
+    kinds = {"": r"\s+", "...": ".*?"}
+    numbers = {p: f"({_NUMBER})" for p in parts if re.fullmatch(_NUMBER, p)}
     return re.compile(
-        "".join(
-            kinds.get(p)
-            or (
-                r"\s+"
-                if p.isspace()
-                else f"({_NUMBER})"
-                if re.fullmatch(_NUMBER, p)
-                else re.escape(p)
-            )
-            for p in parts
-        )
+        "".join(p and (kinds.get(p.strip()) or numbers.get(p) or re.escape(p)) for p in parts)
     )
 
 
