@@ -117,6 +117,23 @@ def test_point_step_of_1500_dofs(benchmark, law):
     report(benchmark, run, baseline(track.stiffness))
 
 
+@pytest.mark.parametrize("jitter", [False, True])
+def test_profile(benchmark, jitter):
+    """1e5 positions of a profile of 1000 terms, against the cosines of all its terms."""
+    rail, x = (
+        sample_profile(paper_spectrum(), seed=1, jitter=jitter),
+        np.linspace(0.0, 2e3, 100_000),
+    )
+    rail(x[:2])
+    began = time.perf_counter()
+    np.cos(rail.wavenumbers[:10, None] * x)
+    all_terms = 100.0 * (time.perf_counter() - began)
+    benchmark.pedantic(rail, args=(x,), rounds=3)
+    ratio = benchmark.stats.stats.median / all_terms
+    benchmark.extra_info["of_all_cosines"] = round(ratio, 3)
+    print(f"\n{1e3 * benchmark.stats.stats.median:.0f} ms, {ratio:.2f} of all its cosines")
+
+
 def test_samples_side_by_side(benchmark):
     """64 samples of the irregularity at one go, against state by state one after another.
 
