@@ -1,6 +1,8 @@
 """The site as tests read it: built once, with a book of one case whose numbers are known."""
 
 import shutil
+import subprocess
+import sys
 from pathlib import Path
 
 from contactstudy.verification.cases import CASES
@@ -13,9 +15,10 @@ GENERATED = ("book", "reference", "generated", "examples", "made", "how_wrong.md
 
 
 def build(work: Path, whole: bool = False) -> Path:
-    """Build the site in `work`, with the whole book if so asked; its folder."""
-    from sphinx.application import Sphinx
+    """Build the site in `work`, with the whole book if so asked; its folder.
 
+    In a process of its own, as a user does: pages start schedulers and change folders.
+    """
     shutil.copytree(DOCS, work / "docs", ignore=shutil.ignore_patterns(*GENERATED))
     (work / "contactstudy").symlink_to(ROOT / "contactstudy")
     if not whole:
@@ -23,9 +26,11 @@ def build(work: Path, whole: bool = False) -> Path:
         write_json([judged(_case())], {"versions": {"numpy": "9.9"}, "code": "abc"}, work / "book")
         shutil.copy(work / "book" / "verification.json", work / "docs" / "verification.json")
     out = work / "html"
-    made = Sphinx(work / "docs", work / "docs", out, work / "trees", "html", warningiserror=True)
-    made.build()
-    assert made.statuscode == 0
+    command = [sys.executable, "-m", "sphinx", "-W", "-q", "-d", work / "trees"]
+    made = subprocess.run(
+        [*map(str, command), str(work / "docs"), str(out)], capture_output=True, text=True
+    )
+    assert made.returncode == 0, made.stdout + made.stderr
     return out
 
 
