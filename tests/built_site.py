@@ -1,9 +1,11 @@
 """The site as tests read it: built once, with a book of one case whose numbers are known."""
 
+import importlib.util
 import shutil
 import subprocess
 import sys
 from pathlib import Path
+from types import ModuleType
 
 from contactstudy.verification.cases import CASES
 from contactstudy.verification.check import CaseResult, Check, ResultTable
@@ -12,6 +14,15 @@ from contactstudy.verification.outcome import judged, write_json
 ROOT = Path(__file__).parents[1]
 DOCS = ROOT / "docs"
 GENERATED = ("book", "reference", "generated", "examples", "made", "how_wrong.md")
+
+
+def docs_module(name: str) -> ModuleType:
+    """A module of the site's own, `docs/name.py`."""
+    spec = importlib.util.spec_from_file_location(name, DOCS / f"{name}.py")
+    assert spec is not None and spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
 
 
 def build(work: Path, whole: bool = False) -> Path:

@@ -2,7 +2,6 @@
 
 import html
 import html.parser
-import importlib.util
 import json
 import re
 import shlex
@@ -10,6 +9,7 @@ from pathlib import Path
 from typing import get_args, get_type_hints
 
 import pytest
+from built_site import docs_module
 
 from contactstudy.commands import app
 from contactstudy.study.kinds.passage.runs import PointRun
@@ -89,10 +89,7 @@ The error is 34 %.
 
 @pytest.fixture(scope="module")
 def executed():
-    spec = importlib.util.spec_from_file_location("executed", DOCS / "executed.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    return docs_module("executed")
 
 
 def test_blocks_of_a_page_run_and_say_what_they_print(executed, tmp_path, monkeypatch):

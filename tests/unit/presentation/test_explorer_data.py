@@ -1,13 +1,12 @@
 """What the explorer's data say, from results whose signals and errors are known."""
 
-import importlib.util
 import json
 from dataclasses import replace
 
 import numpy as np
 import pytest
 import xarray as xr
-from built_site import DOCS
+from built_site import docs_module
 
 from contactstudy.figures.trust import AMPLITUDE, SPEED, WAVELENGTH
 from contactstudy.study.results import StudyResults
@@ -18,10 +17,7 @@ STATIC, SAMPLES = 67e3, 900
 
 @pytest.fixture(scope="module")
 def explorer():
-    spec = importlib.util.spec_from_file_location("explorer", DOCS / "explorer.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    return docs_module("explorer")
 
 
 def error(wave, height):
