@@ -51,6 +51,9 @@ def _status(tokens: Sequence[str]) -> int:
         _complain(str(error))
         return error.exit_status
     except KeyboardInterrupt as stop:
+        # CPython ends by SIGINT where the last text that it compiled and ran, as dataclasses do,
+        # was interrupted, though it is caught here; a text that runs to its end puts that right
+        exec("")
         how = "terminated" if stop.args == (signal.SIGTERM,) else "interrupted"
         _complain(f"{how}; finished runs are kept, the same command goes on from there")
         return 143 if how == "terminated" else 130

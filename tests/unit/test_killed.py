@@ -135,9 +135,30 @@ def test_interrupts_in_the_first_moments(tmp_path, number):
         os.killpg(process.pid, number)
         _, err = process.communicate(timeout=60)
         assert process.returncode in (128 + number, -number)
-        if process.returncode == 128 + number:  # Python itself had started
+        if process.returncode == 128 + number or "contactstudy: " in err:  # it had started
+            assert process.returncode == 128 + number
             lines = [line for line in err.splitlines() if not line.startswith("runs.")]
             assert len(lines) == 1 and "the same command goes on from there" in lines[0]
     finish(study, out)
     finish(study, tmp_path / "at once")
     same(content(out), content(tmp_path / "at once"))
+
+
+INTERRUPTED = """
+import sys
+import contactstudy.cli as cli
+
+cli._call = lambda tokens: exec("raise KeyboardInterrupt(15)")
+sys.argv = ["contactstudy"]
+sys.exit(cli.main())
+"""
+
+
+def test_the_exit_status_is_that_of_the_signal_inside_compiled_text_too(tmp_path):
+    """`python -m` ends by SIGINT where a text that `exec` runs is interrupted, caught or not."""
+    (tmp_path / "interrupted_text.py").write_text(INTERRUPTED)
+    ended = subprocess.run(
+        [sys.executable, "-m", "interrupted_text"], cwd=tmp_path, capture_output=True, text=True
+    )
+    assert "terminated; finished runs are kept" in ended.stderr
+    assert ended.returncode == 143
