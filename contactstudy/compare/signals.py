@@ -46,7 +46,12 @@ def at_station(run: xr.Dataset, name: str, at: float | None) -> Array:
 def position(run: xr.Dataset) -> Array:
     """Position (time,) along the track in m; of a run backward from where the train enters."""
     x = values(run, "position")
-    return run.attrs["start"] + x[0] - x if run.attrs.get("travel") == "backward" else x
+    return x if way(run) > 0.0 else run.attrs["start"] + x[0] - x
+
+
+def way(run: xr.Dataset) -> float:
+    """1 if the vehicle travels along +X, -1 if it comes back."""
+    return -1.0 if run.attrs.get("travel") == "backward" else 1.0
 
 
 def side_by_side(
@@ -67,7 +72,7 @@ def dynamic(run: xr.Dataset, name: str) -> Array:
 
 def same_way(run: xr.Dataset, other: xr.Dataset) -> bool:
     """Whether both pass in the same direction; if not, equal positions are not equal places."""
-    ways = {one.attrs.get("travel", "forward") for one in (run, other)}
+    ways = {way(one) for one in (run, other)}
     return len(ways) == 1
 
 

@@ -12,16 +12,18 @@ from matplotlib.collections import EllipseCollection, LineCollection, PolyCollec
 from matplotlib.figure import Figure
 
 from contactstudy.arrays import Array
+from contactstudy.compare.signals import way
 from contactstudy.plot.style import BLACK, BLUE, GREY, SHADE, SKY, VERMILION, new_figure
 from contactstudy.plot.text import number
-from contactstudy.solvers.bridge_frames import DECK, PIER, RAIL, running_surface
+from contactstudy.solvers.bridge_frames import DECK, PIER, RAIL, frame_steps, running_surface
 from contactstudy.track.bridge import Bridge
 
 _DRAWN, _ABOVE, _AROUND = 5.6, 1.1, 1.15  # inch: width; height of the upper panel and of labels
 _WIDEST, _PIER_WIDTH = 90.0, 2.0  # m
 _LARGEST = 1.2  # m, of the enlarged displacement
-# m above the running surface: lower and upper edge of a car body, and the frames of its bogies
-_BODY, _BOGIE = (1.0, 3.7), 0.65
+BODY = 1.0, 3.7
+"""Lower and upper edge of a car body above the running surface [m]."""
+_BOGIE = 0.65  # m, the frames of its bogies
 _FRAME, _GAP = 1.6, 0.25  # m, half of a bogie's frame; from a coupler to the body
 _RADIUS, _ARROW = 0.46, 2.0  # m, of a wheel; an arrow of a load without a car
 
@@ -41,9 +43,7 @@ class Scene:
         self.chains = np.split(np.arange(len(chain)), ends)
         decks = np.where(self.part == DECK, np.abs(self.up), -1.0)
         self.worst, self.node = np.unravel_index(int(np.argmax(decks)), decks.shape)
-        self.forward = run.attrs.get("travel") != "backward"
-        times = run["time"].values
-        self.steps = np.searchsorted(times, run["frame_time"].values - 1e-9)
+        self.way, self.steps = way(run), frame_steps(run)
         self.factor = _rounded(_LARGEST / max(float(np.abs(self.up).max()), 1e-9))
         self.surface = running_surface(bridge.track_height)
         self.window = self._window()
@@ -91,7 +91,7 @@ class Scene:
         middle = 0.5 * (supports[k] + supports[k + 1])
         left = float(np.clip(middle - 0.5 * width, 0.0, max(bridge.length - width, 0.0)))
         foot = min(float(self.z.min()), -bridge.bearing_depth - 2.0) - 0.5
-        return left, left + width, foot, self.surface + _BODY[1] + 1.0
+        return left, left + width, foot, self.surface + BODY[1] + 1.0
 
     def _stays(self, axes: Axes) -> None:
         bridge, supports = self.bridge, self.bridge.supports
@@ -154,8 +154,8 @@ class Scene:
         if "car_outline" not in self.run:
             return [], []
         lead = float(self.run["frame_position"][frame])
-        way, bodies, bogies = 1.0 if self.forward else -1.0, [], []
-        for outline in lead + way * self.run["car_outline"].values:
+        bodies, bogies = [], []
+        for outline in lead + self.way * self.run["car_outline"].values:
             front, rear, pivots = outline[0], outline[3], outline[1:3]
             rise = np.array([up[np.argsort(np.abs(wheels - x))[:2]].mean() for x in pivots])
             bogies += [
@@ -163,9 +163,9 @@ class Scene:
                 for x, z in zip(pivots, rise, strict=True)
             ]
             slope = (rise[0] - rise[1]) / (pivots[0] - pivots[1])
-            x = np.array([front - way * _GAP, rear + way * _GAP])
+            x = np.array([front - self.way * _GAP, rear + self.way * _GAP])
             lower, upper = (
-                self.surface + edge + rise[0] + slope * (x - pivots[0]) for edge in _BODY
+                self.surface + edge + rise[0] + slope * (x - pivots[0]) for edge in BODY
             )
             bodies.append(np.stack([np.r_[x, x[::-1]], np.r_[lower, upper[::-1]]], axis=1))
         return bodies, bogies

@@ -20,7 +20,7 @@ from contactstudy.figures.train import repeat_length
 from contactstudy.plot.drawing import Drawing
 from contactstudy.plot.style import GREY, VERMILION, figure_legend, new_figure
 from contactstudy.plot.text import label, number
-from contactstudy.solvers.bridge_levels import REACH, REFERENCE
+from contactstudy.solvers.bridge_levels import REACH, REFERENCE, passing
 from contactstudy.solvers.bridge_sensors import motion_name
 from contactstudy.study.results import StudyResults
 from contactstudy.track.space_beam import Axis
@@ -162,9 +162,8 @@ def spectrum(run: xr.Dataset, station: float) -> tuple[Array, Array]:
 
     Of a sinusoid with a whole number of periods the line at its frequency is its amplitude.
     """
-    x = np.atleast_2d(run["position"].values)
-    near = np.flatnonzero((np.abs(x - station) <= REACH).any(axis=0))
-    values = run["deck_acceleration"].sel(station=station).values[near[0] : near[-1] + 1]
+    near = passing(np.atleast_2d(run["position"].values).T, station)
+    values = run["deck_acceleration"].sel(station=station).values[near]
     lines = np.abs(np.fft.rfft(values - values.mean())) * 2.0 / len(values)
     return np.asarray(np.fft.rfftfreq(len(values), float(run.attrs["dt"]))), lines
 

@@ -149,6 +149,11 @@ def _kept(track: StructureTrack) -> _Nodes:
     )
 
 
+def frame_steps(run: xr.Dataset) -> IntArray:
+    """Time steps of the frames that a run has kept, (frame,)."""
+    return np.searchsorted(run["time"].values, run["frame_time"].values - 1e-9)
+
+
 def running_surface(track_height: float) -> float:
     """Height of the rails' running surface above the decks' axis [m]."""
     return track_height + FOOT_DEPTH + HEAD_HEIGHT

@@ -48,12 +48,17 @@ def velocity_levels(data: xr.Dataset, positions: Array) -> xr.Dataset:
     return xr.Dataset(made, {"band": xr.Variable(("band",), bands, attrs)})
 
 
+def passing(positions: Array, x: float) -> slice:
+    """Time steps while the train, its wheels at X `positions` (n_times, n_wheels), passes x [m]."""
+    near = np.flatnonzero((np.abs(positions - x) <= REACH).any(axis=1))
+    return slice(near[0], near[-1] + 1) if len(near) else slice(0)
+
+
 def _levels(velocity: xr.DataArray, positions: Array, step: float) -> list[dict[float, float]]:
     """Of each place nominal centre [Hz] -> level [dB]."""
     highest, rows = 1.0 / (STEPS_A_PERIOD * step), list[dict[float, float]]()
     for x, values in zip(velocity[velocity.dims[0]].values, velocity.values, strict=True):
-        near = np.flatnonzero((np.abs(positions - x) <= REACH).any(axis=1))
-        part = values[near[0] : near[-1] + 1] if len(near) else values[:0]
+        part = values[passing(positions, x)]
         if len(part) < _FEWEST or not np.isfinite(part).all():
             rows.append({})
             continue

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from short_study import HERTZ, WAY
 
 from contactstudy import cli, cluster, driver
 from contactstudy.cluster import Cluster
@@ -43,24 +44,15 @@ def ends(progress):
     os.kill(os.getpid(), 9)
 '''
 
-STUDY = """
-[track]
-length = "6 m"
+STUDY = f"""{WAY}
 [irregularity]
 spectrum = "measured"
 file = "level.csv"
 level_column = "z"
 wavelengths = ["0.1 m", "3 m"]
-[journey]
-from = "1.2 m"
-to = "3 m"
-time_step = "0.2 ms"
-fade_in = "0.6 m"
 [runs.point]
 solver = "point"
-[runs.hertz]
-solver = "point"
-law = "hertz"
+{HERTZ}
 [sweep]
 "journey.speed" = ["200 km/h", "250 km/h", "300 km/h"]
 "track.pad_stiffness" = ["60 MN/m", "70 MN/m"]

@@ -19,11 +19,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from contactstudy.arrays import Array
+from contactstudy.compare.signals import way
 from contactstudy.export.paraview import Piece, collection, vtu
 from contactstudy.figures.bridge_picture import shown
+from contactstudy.figures.bridge_scene import BODY
 from contactstudy.figures.deck_damping import bridge_of
 from contactstudy.files import write_file
-from contactstudy.solvers.bridge_frames import running_surface
+from contactstudy.solvers.bridge_frames import frame_steps, running_surface
 from contactstudy.study.kinds.passage.kind import FIELDS
 from contactstudy.study.results import StudyResults
 from contactstudy.track.bridge import Bridge
@@ -34,7 +36,6 @@ if TYPE_CHECKING:
 
 CAR, WHEEL = 3, 4
 """Beside the parts of `solvers.bridge_frames`."""
-_BODY = (1.0, 3.7)  # m above the running surface
 _HALF_WIDTH, _CENTRE = 1.45, 1.8  # m; height of a body's centre above the running surface
 
 
@@ -90,8 +91,7 @@ def _structure(run: xr.Dataset, frame: int) -> dict[str, Any]:
 
 def _wheels(run: xr.Dataset, bridge: Bridge, frame: int) -> dict[str, Any]:
     """Points on the running surface, of a planar run in the middle of the track."""
-    step = int(np.argmin(np.abs(run["time"].values - float(run["frame_time"][frame]))))
-    now = run.isel(time=step)
+    now = run.isel(time=int(frame_steps(run)[frame]))
     x, up, force = (
         np.atleast_1d(now[name].values)
         for name in ("position", "wheel_displacement", "contact_force")
@@ -102,7 +102,7 @@ def _wheels(run: xr.Dataset, bridge: Bridge, frame: int) -> dict[str, Any]:
     if "wheel_lateral" in now:  # wheelset by wheelset, the vehicle's right wheel first
         moved[:, 1] = now["wheel_lateral"].values
         sides = bridge.lateral_of_rails
-        y = np.tile(sides if _way(run) > 0.0 else sides[::-1], n // 2)
+        y = np.tile(sides if way(run) > 0.0 else sides[::-1], n // 2)
     return {
         "points": np.stack([x, y, np.full(n, running_surface(bridge.track_height))], axis=1),
         "kind": "vertex",
@@ -119,18 +119,18 @@ def _cars(run: xr.Dataset, bridge: Bridge, frame: int) -> list[dict[str, Any]]:
     if "car_outline" not in run:
         return []
     u = np.asarray(run["frame_vehicle"].values[frame], dtype=float)
-    lead, way = float(run["frame_position"][frame]), _way(run)
+    lead, ahead = float(run["frame_position"][frame]), way(run)
     surface, made = running_surface(bridge.track_height), []
     for k, outline in enumerate(run["car_outline"].values, start=1):
         middle = 0.5 * (outline[1] + outline[2])
         # lower face, then upper face; in the car's own axes about its centre, which look forward
         along = np.tile([outline[3], outline[0], outline[0], outline[3]], 2) - middle
         across = np.tile([-_HALF_WIDTH, -_HALF_WIDTH, _HALF_WIDTH, _HALF_WIDTH], 2)
-        above = np.repeat(_BODY, 4) - _CENTRE
+        above = np.repeat(BODY, 4) - _CENTRE
         moved = _rigid(dict(zip(names, u, strict=True)), k, along, across, above)
         place = [
-            lead + way * (along + middle),
-            bridge.track_offset + way * across,
+            lead + ahead * (along + middle),
+            bridge.track_offset + ahead * across,
             surface + _CENTRE + above,
         ]
         made.append(
@@ -138,7 +138,7 @@ def _cars(run: xr.Dataset, bridge: Bridge, frame: int) -> list[dict[str, Any]]:
                 "points": np.stack(place, axis=1),
                 "kind": "hexahedron",
                 "cells": np.arange(8)[None],
-                "displacement": moved * [way, way, 1.0],
+                "displacement": moved * [ahead, ahead, 1.0],
                 "contact_force": np.zeros(8),
                 "part": np.full(8, CAR),
             }
@@ -157,7 +157,3 @@ def _rigid(u: dict[str, float], car: int, x: Array, y: Array, z: Array) -> Array
         ],
         axis=1,
     )
-
-
-def _way(run: xr.Dataset) -> float:
-    return -1.0 if run.attrs.get("travel") == "backward" else 1.0
