@@ -4,6 +4,7 @@ With S = L L^T and z_i = L^-1 B_i^T a step needs one banded solution, however ma
 
     L y = rhs,   B S^-1 rhs = Z^T y,   W = B S^-1 B^T = Z^T Z,   L^T a = y + Z lambda.
 
+With dampers over whole decks (`dynamics.dampers`) the products of z and y are y^T (1 - Y H Y^T) z.
 What z_i holds is local: in one time step a load on a rail is felt some metres away (5 m away 4e-9
 of it at 0.2 ms, 4e-7 at 0.5 ms on a track of 60E1 on a concrete box). So columns of L^-1 are cut
 where they fall below `CUT` of their largest value. Where only the free displacements are known, as
@@ -20,8 +21,10 @@ from contactstudy.compiled import compiled, compiled_in_any_order
 from contactstudy.contact.point_gaps import PointContacts
 from contactstudy.dynamics.banded import Factor
 from contactstudy.dynamics.columns import Columns, LocalColumns
+from contactstudy.dynamics.dampers import product
 from contactstudy.dynamics.rows import add_rows, row_values
 from contactstudy.dynamics.stepper import ContactStep
+from contactstudy.dynamics.windows import Windows
 from contactstudy.exceptions import NumericalError
 
 FEWEST = 12
@@ -58,8 +61,18 @@ class AttachedMany:
         return self._compliance(step, *self._coupling.gaps.rows(step))
 
     def _compliance(self, step: int, dofs: IntArray, weights: Array) -> Array:
-        W = overlaps(self._pieces(dofs, weights)) if self.local else None
-        return self._scaled(step, self._solved(step, dofs, weights) if W is None else W)
+        if not self.local:
+            return self._scaled(step, self._solved(step, dofs, weights))
+        return self._scaled(step, self._overlaps(self._pieces(dofs, weights))[0])
+
+    def _overlaps(self, pieces: Columns) -> tuple[Array, Array | None]:
+        """B S^-1 B^T, and H Y^T Z (r, nc) where there are dampers over whole decks."""
+        W, spread = overlaps(pieces), self._factor.spread
+        if spread is None:
+            return W, None
+        own = shares(pieces, spread.rows)
+        taken = spread.core @ own
+        return W - own.T @ taken, taken
 
     def _scaled(self, step: int, W: Array) -> Array:
         W = self._scale * W
@@ -76,8 +89,11 @@ class AttachedMany:
         dofs, weights = gaps.rows(step)
         pieces, local = self._pieces(dofs, weights), gaps.compliance[step]
         y = half[len(half) - self._padded :]
-        free_gap = row_values(dofs, weights, u_known) + of_a * products(pieces, y)
-        W = self._scaled(step, overlaps(pieces))
+        (W, taken), found = self._overlaps(pieces), products(pieces, y)
+        if taken is not None and self._factor.spread is not None:
+            found -= product(self._factor.spread.rows, y) @ taken
+        free_gap = row_values(dofs, weights, u_known) + of_a * found
+        W = self._scaled(step, W)
         force = coupling.forces(step, W, free_gap - gaps.irregularity[step])
         load, increment = np.zeros_like(u_known), np.zeros_like(half)
         add_rows(dofs, weights, force, load)
@@ -201,6 +217,28 @@ def products(pieces: Columns, y: Array) -> Array:
         for k in range(len(own)):
             total += own[k] * there[k]
         found[piece % m] += total
+    return found
+
+
+@compiled_in_any_order
+def shares(pieces: Columns, rows: Windows) -> Array:
+    """Y^T Z (r, m) for rows Y^T."""
+    low, wide, at, values = pieces
+    first, width, begin, own = rows
+    m = len(low) // 2
+    found = np.zeros((len(first), m))
+    for row in range(len(first)):
+        for piece in range(2 * m):
+            start = max(first[row], low[piece])
+            stop = min(first[row] + width[row], low[piece] + wide[piece])
+            if stop <= start:
+                continue
+            one = own[begin[row] + start - first[row] : begin[row] + stop - first[row]]
+            other = values[at[piece] + start - low[piece] : at[piece] + stop - low[piece]]
+            total = 0.0
+            for k in range(stop - start):
+                total += one[k] * other[k]
+            found[row, piece % m] += total
     return found
 
 

@@ -43,8 +43,8 @@ class PointCoupling:
 
     def attached(self, factor: Factor, scale: float) -> AttachedFew | AttachedMany:
         """Join to a system."""
-        made = AttachedFew if len(self.static_loads) < FEWEST else AttachedMany
-        return made(self, factor, scale)
+        few = len(self.static_loads) < FEWEST and factor.spread is None
+        return AttachedFew(self, factor, scale) if few else AttachedMany(self, factor, scale)
 
     def forces(self, step: int, compliance: Array, free_gap: Array) -> Array:
         """Forces (nc,) at the end of a step, for W and g*."""

@@ -10,6 +10,7 @@ import scipy.sparse as sp
 
 from contactstudy.arrays import Array, IntArray
 from contactstudy.compiled import compiled, compiled_in_any_order
+from contactstudy.dynamics.dampers import SpreadDampers
 from contactstudy.exceptions import NumericalError
 
 
@@ -23,11 +24,15 @@ def canonical(matrix: sp.sparray) -> sp.csr_array:
 
 @dataclass(frozen=True)
 class LinearSystem:
-    """M u'' + C u' + K u = f; all (n, n) and symmetric, in an ordering of narrow band."""
+    """M u'' + C u' + K u = f; all (n, n) and symmetric, in an ordering of narrow band.
+
+    With `dampers`, rows G (r, n) that would fill the band, C is `damping` + G^T G.
+    """
 
     mass: sp.csr_array
     damping: sp.csr_array
     stiffness: sp.csr_array
+    dampers: sp.csr_array | None = None
 
     @property
     def n_dofs(self) -> int:
@@ -36,16 +41,25 @@ class LinearSystem:
 
     @classmethod
     def stacked(cls, *parts: Any) -> "LinearSystem":
-        """Uncoupled parts, each with mass, damping and stiffness, one after the other."""
-        return cls(
-            *(
-                canonical(sp.block_diag([getattr(part, name) for part in parts]))
-                for name in ("mass", "damping", "stiffness")
-            )
+        """Uncoupled parts, each with mass, damping and stiffness, one after the other.
+
+        A part may have `dampers`, too.
+        """
+        M, C, K = (
+            canonical(sp.block_diag([getattr(part, name) for part in parts]))
+            for name in ("mass", "damping", "stiffness")
         )
+        own = [getattr(part, "dampers", None) for part in parts]
+        if all(rows is None for rows in own):
+            return cls(M, C, K)
+        there = [
+            sp.csr_array((0, part.mass.shape[0])) if rows is None else rows
+            for part, rows in zip(parts, own, strict=True)
+        ]
+        return cls(M, C, K, canonical(sp.block_diag(there)))
 
     def combine(self, a_mass: float, a_damping: float, a_stiffness: float) -> sp.csr_array:
-        """a_mass M + a_damping C + a_stiffness K."""
+        """a_mass M + a_damping C + a_stiffness K, without `dampers`."""
         M, C, K = self.mass, self.damping, self.stiffness
         return canonical(a_mass * M + a_damping * C + a_stiffness * K)
 
@@ -57,7 +71,9 @@ BLOCK = 8
 class Factor:
     """Cholesky factor L L^T of a sparse, symmetric, positive definite, narrow-banded matrix.
 
-    Only the lower half of the matrix (n, n) is read.
+    Only the lower half of the matrix (n, n) is read. With `spread`, rows R (r, n), solutions are
+    those of the matrix + R^T R: y of `forward` is L^-1 b all the same, and `backward` does the rest
+    (`dynamics.dampers`).
 
     Raises
     ------
@@ -65,7 +81,7 @@ class Factor:
         If the matrix is not positive definite.
     """
 
-    def __init__(self, matrix: sp.sparray) -> None:
+    def __init__(self, matrix: sp.sparray, spread: sp.csr_array | None = None) -> None:
         lower = sp.coo_array(sp.tril(matrix))
         rows, columns = lower.coords
         self.n = matrix.shape[0]
@@ -79,6 +95,13 @@ class Factor:
                 f"the system matrix ({self.n} dofs) is not positive definite: {error}."
                 " Something is not held, or a stiffness or mass is negative or not a number"
             ) from error
+        self.spread = None if spread is None else SpreadDampers(self._half_solved(spread))
+
+    def _half_solved(self, rows: sp.csr_array) -> Array:
+        """L^-1 of each of the rows (r, n)."""
+        width = self.blocks.left.shape[2]
+        whole = [self.forward(row)[width : width + self.n] for row in rows.toarray()]
+        return np.array(whole).reshape(-1, self.n)
 
     @cached_property
     def blocks(self) -> "Blocks":
@@ -113,8 +136,10 @@ class Factor:
         return y
 
     def backward(self, y: Array) -> Array:
-        """x (n,) of L^T x = y, which is overwritten."""
+        """x (n,) of L^T x = y, which is overwritten; `spread` takes its part of y first."""
         n_blocks, _, width = self.blocks.left.shape
+        if self.spread is not None:
+            self.spread.settle(y[width:])
         _backward(self.blocks, y, 0, n_blocks)
         return y[width : width + self.n]
 
@@ -122,6 +147,8 @@ class Factor:
         """Solve for one or several right-hand sides, (n,) or (n, k); b is left as it is."""
         if b.ndim == 1:
             return self.backward(self.forward(b))
+        if self.spread is not None:
+            return np.array([self.solve(column) for column in b.T]).reshape(b.T.shape).T
         blocks = self.blocks
         n_blocks, _, width = blocks.left.shape
         columns = np.zeros((b.shape[1], width + n_blocks * BLOCK))

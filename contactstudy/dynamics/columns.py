@@ -49,6 +49,7 @@ class LocalColumns:
     def __init__(
         self, factor: Factor, memory: float = 128e6, cut: float = CUT, half: bool = False
     ) -> None:
+        assert half or factor.spread is None, "a damper over a whole deck is felt all over it"
         self._factor, self._most, n = factor, int(memory / 8), factor.n
         self._cut, self._half = cut, half
         n_blocks, _, width = factor.blocks.left.shape

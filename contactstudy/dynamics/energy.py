@@ -48,7 +48,10 @@ def energy_balance(system: LinearSystem, states: Iterable[State]) -> EnergyBalan
     for state in following:
         du = state.u - last.u
         work += 0.5 * float(du @ (last.load + state.load))
-        dissipated += 0.5 * float(du @ (system.damping @ (last.v + state.v)))
+        v = last.v + state.v
+        dissipated += 0.5 * float(du @ (system.damping @ v))
+        if (G := system.dampers) is not None:
+            dissipated += 0.5 * float((G @ du) @ (G @ v))
         last = state
     M, K = system.mass, system.stiffness
     kinetic = _quadratic(M, last.v) - _quadratic(M, first.v)

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
-from contactstudy.dynamics.banded import LinearSystem
+from contactstudy.dynamics.banded import Factor, LinearSystem
 from contactstudy.exceptions import InputError
 
 STEPS_A_PERIOD = 8
@@ -51,8 +51,15 @@ class Integrator:
         c0, c2, c3 = 1.0 / (beta * dt**2), -1.0 / (beta * dt), 1.0 - 1.0 / (2.0 * beta)
         return c0, c2, c3, gamma * dt * c0, 1.0 + gamma * dt * c2, dt * (1.0 - gamma + gamma * c3)
 
+    def factor(self, system: LinearSystem, dt: float) -> Factor:
+        """Factor of S of a step dt [s], with the new accelerations as unknowns."""
+        spread = system.dampers
+        if spread is not None:
+            spread = np.sqrt((1.0 - self.alpha_f) * self.gamma * dt) * spread
+        return Factor(self.matrix(system, dt), spread)
+
     def matrix(self, system: LinearSystem, dt: float) -> sp.csr_array:
-        """S (n, n) of a step dt [s], with the new accelerations as unknowns."""
+        """S (n, n) of that step, without the system's `dampers`."""
         # S = (1-am) M + (1-af) gamma dt C + (1-af) beta dt^2 K
         left = 1.0 - self.alpha_f
         of_a = left * self.gamma * dt, left * (self.beta * dt**2)

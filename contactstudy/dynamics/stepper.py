@@ -21,6 +21,7 @@ import numpy as np
 
 from contactstudy.arrays import Array
 from contactstudy.dynamics.banded import Factor, LinearSystem
+from contactstudy.dynamics.dampers import add_transposed, product
 from contactstudy.dynamics.integrators import (
     Integrator,
     average_acceleration,
@@ -183,13 +184,14 @@ def march(
     dt, beta, gamma = steps.length, integrator.beta, integrator.gamma
     am, af = integrator.alpha_m, integrator.alpha_f
     of_a = beta * dt**2
-    factor = Factor(integrator.matrix(system, dt))
+    factor = integrator.factor(system, dt)
     attached = contact_state = None
     if coupling is not None:
         attached = coupling.attached(factor, (1.0 - af) * of_a)
         contact_state = start.contact.state if start.contact else coupling.start()
     half_way = attached.half_way if isinstance(attached, HalfWay) and attached.local else None
     mass, damping, stiffness = map(windows, (system.mass, system.damping, system.stiffness))
+    dampers = None if system.dampers is None else windows(system.dampers)
     load_at = external if callable(external) else lambda step: external
     u, v, a, load = start.u, start.v, start.a, start.load
     for step in range(1, steps.count + 1):
@@ -200,7 +202,10 @@ def march(
         rhs = (1.0 - af) * ext + af * load
         if am != 0.0:
             subtract_product(mass, am * a, rhs)
-        subtract_product(damping, (1.0 - af) * v_known + af * v, rhs)
+        v_mean = (1.0 - af) * v_known + af * v
+        subtract_product(damping, v_mean, rhs)
+        if dampers is not None:
+            add_transposed(dampers, -product(dampers, v_mean), rhs)
         subtract_product(stiffness, (1.0 - af) * u_known + af * u, rhs)
         contact, load = None, ext
         if half_way is not None:

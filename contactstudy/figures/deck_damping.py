@@ -1,4 +1,4 @@
-"""The damping ratio that a deck has over frequency, by its Rayleigh damping."""
+"""The damping ratio that a deck has over frequency, by Rayleigh or of its modes."""
 
 from functools import partial
 from typing import Any
@@ -14,6 +14,9 @@ from contactstudy.plot.text import number
 from contactstudy.study.results import StudyResults
 from contactstudy.track.bridge import Bridge
 from contactstudy.track.deck import realised_ratio
+from contactstudy.track.deck_modes import deck_modes
+from contactstudy.track.model import Track
+from contactstudy.track.structure_nodes import nodes_of
 
 _MODES = 3
 _UP_TO = 100.0  # Hz, at least
@@ -44,15 +47,32 @@ def bending_frequencies(bridge: Bridge) -> Array:
     return np.asarray(first * np.arange(1, _MODES + 1) ** 2)
 
 
+def _modal(bridge: Bridge, up_to: float) -> tuple[Array, Array]:
+    """Frequencies [Hz] and ratios of the longest deck's vertical modes, two beyond the limit."""
+    nodes = nodes_of(Track(structure=bridge), "euler", 1)
+    longest = max(range(len(bridge.decks)), key=lambda k: np.ptp(bridge.decks[k]))
+    modes = deck_modes(nodes, longest, True, 4.0 * up_to)
+    given = modes.frequencies <= up_to
+    count = int(given.sum()) + 2
+    ratios = modes.ratios + bridge.deck.damping_ratio * given
+    return modes.frequencies[:count], ratios[:count]
+
+
 def _draw(bridge: Bridge) -> Figure:
     figure = new_figure(2.4)
     axes = figure.subplots()
-    modes = bending_frequencies(bridge)
+    if (coefficients := bridge.rayleigh) is None:
+        assert bridge.damped_up_to is not None
+        modes, ratios = _modal(bridge, bridge.damped_up_to)
+        label = "vertical modes of the longest deck"
+    else:
+        modes = bending_frequencies(bridge)
+        ratios, label = realised_ratio(coefficients, modes), "bending of the longest span"
     frequency = np.geomspace(0.5 * modes[0], max(_UP_TO, 1.5 * modes[-1]), 200)
-    coefficients = bridge.rayleigh
-    axes.plot(frequency, 100 * realised_ratio(coefficients, frequency), color=BLACK, lw=1.0)
-    axes.plot(modes, 100 * realised_ratio(coefficients, modes), ls="none", marker="s", ms=4,
-              mfc="none", color=VERMILION, label="bending of the longest span")  # fmt: skip
+    if coefficients is not None:
+        axes.plot(frequency, 100 * realised_ratio(coefficients, frequency), color=BLACK, lw=1.0)
+    axes.plot(modes, 100 * ratios, ls="none", marker="s", ms=4, mfc="none", color=VERMILION,
+              label=label)  # fmt: skip
     axes.axhline(100 * bridge.deck.damping_ratio, color=GREY, lw=0.7, ls=(0, (4, 2)),
                  label="ratio asked for")  # fmt: skip
     axes.set(xscale="log", xlabel="Frequency (Hz)", ylabel="Damping ratio (%)")
@@ -65,15 +85,27 @@ def _draw(bridge: Bridge) -> Figure:
     return figure
 
 
-def _caption(bridge: Bridge) -> str:
-    modes = bending_frequencies(bridge)
-    told = [
+def _told(frequencies: Array, ratios: Array) -> str:
+    return "; ".join(
         f"{number(100 * float(ratio), 3)} % at {number(float(f), 3)} Hz"
-        for f, ratio in zip(modes, realised_ratio(bridge.rayleigh, modes), strict=True)
-    ]
+        for f, ratio in zip(frequencies, ratios, strict=True)
+    )
+
+
+def _caption(bridge: Bridge) -> str:
+    if (coefficients := bridge.rayleigh) is None:
+        assert bridge.damped_up_to is not None
+        return (
+            "Damping ratio of the modes of the longest deck alone on its bearings, vertical: "
+            f"{_told(*_modal(bridge, bridge.damped_up_to))}. Every mode of a deck up to "
+            f"{number(bridge.damped_up_to, 3)} Hz has the ratio that was asked for, "
+            f"{number(100 * bridge.deck.damping_ratio, 3)} % (dashed), beside the dampers of its "
+            "bearings; higher ones have those alone."
+        )
+    modes = bending_frequencies(bridge)
     return (
         "Damping ratio of a deck over frequency, as Rayleigh's damping gives it: "
         f"ζ = a/(2ω) + bω/2. Squares: the first {_MODES} bending frequencies of the longest span, "
-        f"simply supported: {'; '.join(told)}. Dashed: the ratio that was asked for, "
-        f"{number(100 * bridge.deck.damping_ratio, 3)} %."
+        f"simply supported: {_told(modes, realised_ratio(coefficients, modes))}. Dashed: the "
+        f"ratio that was asked for, {number(100 * bridge.deck.damping_ratio, 3)} %."
     )

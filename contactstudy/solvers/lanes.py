@@ -18,7 +18,7 @@ from contactstudy.contact.point_steps import (
     Scheme,
     advance,
 )
-from contactstudy.dynamics.banded import Factor, LinearSystem
+from contactstudy.dynamics.banded import LinearSystem
 from contactstudy.dynamics.columns import LocalColumns
 from contactstudy.dynamics.lanes import LANES, lane_system
 from contactstudy.dynamics.stepper import Integrator, State
@@ -87,7 +87,7 @@ class LaneStepper:
     def __init__(
         self, system: LinearSystem, external: Array, integrator: Integrator, dt: float
     ) -> None:
-        factor, i = Factor(integrator.matrix(system, dt)), integrator
+        factor, i = integrator.factor(system, dt), integrator
         self._system, self._columns = lane_system(system, factor), LocalColumns(factor)
         self._external, self._scheme = external, Scheme(dt, i.beta, i.gamma, i.alpha_m, i.alpha_f)
 

@@ -22,6 +22,7 @@ from contactstudy.validation import (
     Parameters,
     Unit,
     Variants,
+    When,
     Written,
     complaint,
     listed,
@@ -117,10 +118,19 @@ class Bridge(Parameters):
         DeckSection,
         Variants("deck", {"box_32m": Box32m, "antoing": Antoing, "given": GivenDeck}, "section"),
     ] = field(default_factory=Box32m)
+    deck_damping: Annotated[
+        Literal["rayleigh", "modal"],
+        "of the deck: a M + b K, or its ratio for each of its modes up to a frequency",
+    ] = "rayleigh"
     damping_frequencies: Annotated[
-        tuple[float, float] | None, Unit("Hz"), Above(0),
+        tuple[float, float] | None, Unit("Hz"), Above(0), When("deck_damping", "rayleigh"),
         "where the deck has its damping ratio; first and second bending of the longest span if "
         "left out",
+    ] = None  # fmt: skip
+    modal_damping_up_to: Annotated[
+        float | None, Unit("Hz"), Above(0), When("deck_damping", "modal"),
+        "modes of a deck up to here have its damping ratio, others none; if left out, 30 Hz or ten "
+        "times the first bending frequency of the shortest span",
     ] = None  # fmt: skip
     approach_before: Annotated[q.Length, "track on the ground before the bridge"] = 50.0
     approach_behind: Annotated[q.Length, "track on the ground behind the bridge"] = 50.0
@@ -179,7 +189,11 @@ class Bridge(Parameters):
 
     def resolved(self) -> dict[str, Any]:
         """As in `Parameters`; the damping's frequencies, without what is left out."""
-        values = super().resolved() | {"damping_frequencies": list(self._damped_at)}
+        values = super().resolved()
+        if (up_to := self.damped_up_to) is None:
+            values["damping_frequencies"] = list(self._damped_at)
+        else:
+            values["modal_damping_up_to"] = up_to
         return {key: value for key, value in values.items() if value is not None}
 
     def planar_under(self, directions: Iterable[str]) -> bool:
@@ -206,9 +220,22 @@ class Bridge(Parameters):
         return tuple(self.supports[a : b + 1] for a, b in itertools.pairwise(ends))
 
     @property
-    def rayleigh(self) -> tuple[float, float]:
-        """Coefficients a [1/s] and b [s] of the deck's damping a M + b K."""
+    def rayleigh(self) -> tuple[float, float] | None:
+        """Coefficients a [1/s] and b [s] of the deck's damping a M + b K, if it is that."""
+        if self.deck_damping == "modal":
+            return None
         return rayleigh(self.deck.damping_ratio, *self._damped_at)
+
+    @property
+    def damped_up_to(self) -> float | None:
+        """Up to which frequency a deck's modes have its ratio, if the damping is modal [Hz].
+
+        Of a beam's frequencies, i^2 f_1, ten f_1 lets the third in; up to there, and up to 30 Hz,
+        EN 1990, A2.4.4.2.1(4) counts the deck's acceleration.
+        """
+        if self.deck_damping == "rayleigh":
+            return None
+        return self.modal_damping_up_to or max(30.0, 10.0 * self.deck.frequency(min(self.spans)))
 
     @property
     def _damped_at(self) -> tuple[float, float]:

@@ -29,7 +29,11 @@ class DiscreteTrack(Protocol):
 
     @property
     def damping(self) -> sp.csr_array:
-        """Damping matrix (n_dofs, n_dofs) [N s/m]."""
+        """Damping matrix (n_dofs, n_dofs) [N s/m], without `dampers`."""
+
+    @property
+    def dampers(self) -> sp.csr_array | None:
+        """Rows G (r, n_dofs) of dampers over whole decks, whose damping matrix is G^T G."""
 
     @property
     def stiffness(self) -> sp.csr_array:
@@ -118,6 +122,11 @@ class AssembledTrack(ABC):
     def damping(self) -> sp.csr_array:
         """Damping matrix (n_dofs, n_dofs): pads, ballast or foundation."""
         return self._assembled.damping
+
+    @property
+    def dampers(self) -> sp.csr_array | None:
+        """None but on a bridge."""
+        return None
 
     @property
     def stiffness(self) -> sp.csr_array:

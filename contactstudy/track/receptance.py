@@ -68,7 +68,10 @@ def decay_rate(
 def _motion(track: DiscreteTrack, force: Array, frequency: float) -> np.ndarray:
     """Complex displacements (n,) under a harmonic force (n,) at a frequency [Hz]."""
     omega = 2.0 * np.pi * frequency
-    dynamic = sp.coo_array(track.stiffness + 1j * omega * track.damping - omega**2 * track.mass)
+    damping = track.damping
+    if (G := track.dampers) is not None:
+        damping = damping + G.T @ G
+    dynamic = sp.coo_array(track.stiffness + 1j * omega * damping - omega**2 * track.mass)
     rows, columns = dynamic.coords
     bandwidth = int(np.abs(rows - columns).max(initial=0))
     band = np.zeros((2 * bandwidth + 1, len(force)), dtype=complex)

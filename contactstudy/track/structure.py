@@ -16,6 +16,7 @@ from contactstudy.exceptions import InputError
 from contactstudy.irregularity.shapes import smoothstep
 from contactstudy.track.beam import BeamTrack, RailTheory
 from contactstudy.track.bridge import Bridge, of_support
+from contactstudy.track.deck_modes import modal_dampers
 from contactstudy.track.discrete import AssembledTrack, without_held
 from contactstudy.track.frame import Chain, Frame
 from contactstudy.track.model import Track
@@ -164,6 +165,13 @@ class StructureTrack(AssembledTrack, Parameters):
         nodes = self.nodes
         springs = all_springs(nodes, self.planar)
         return Frame(nodes.beams, springs, nodes.bodies, nodes.dofs(self.planar))
+
+    @cached_property
+    def dampers(self) -> sp.csr_array | None:
+        """Rows of the decks' modal damping."""
+        if (up_to := self.bridge.damped_up_to) is None:
+            return None
+        return modal_dampers(self.nodes, self.planar, self.bridge.deck.damping_ratio, up_to)
 
     @cached_property
     def _assembled(self) -> SupportedRail:

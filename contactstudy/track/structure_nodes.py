@@ -135,7 +135,7 @@ def nodes_of(track: Track, theory: str, per_bay: int) -> Nodes:
     decks = []
     for part in (part for part in parts if part.deck >= 0):
         at = np.unique(np.round(np.r_[part.seats, bridge.decks[part.deck]], 9))
-        decks.append(Chain(add(at, 3), at, bridge.deck.beam, bridge.rayleigh))
+        decks.append(Chain(add(at, 3), at, bridge.deck.beam, bridge.rayleigh or (0.0, 0.0)))
     piers = []
     if bridge.piers is not None:
         pier = bridge.piers

@@ -138,6 +138,7 @@ class Bearings:
     tension. `x` (m,) of the supports [m].
     """
 
+    deck: int
     x: Array
     springs: Springs
 
@@ -160,7 +161,7 @@ def bearings(nodes: Nodes, axes: tuple[Axis, ...]) -> Iterator[Bearings]:
                 rows = at_nodes(deck, row, size)
                 rows = rows - at_nodes(tops, displacement(axis, (0.0, side, 0.0)), size)
                 springs = Springs(rows, np.full(len(x), k), np.full(len(x), c))
-                yield Bearings(x, springs)
+                yield Bearings(number, x, springs)
 
 
 def _foundations(nodes: Nodes) -> Iterator[Springs]:

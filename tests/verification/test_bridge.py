@@ -234,9 +234,10 @@ def test_weight_is_balanced_over_a_whole_passage(planar):
     assert force.std() > 1e3
 
 
+@pytest.mark.parametrize("deck_damping", ["rayleigh", "modal"])
 @pytest.mark.parametrize("planar", [True, False])
-def test_energy_is_balanced_over_a_whole_passage(planar):
-    structure, car = small_bridge(planar), one_car(planar)
+def test_energy_is_balanced_over_a_whole_passage(planar, deck_damping):
+    structure, car = small_bridge(planar, deck_damping=deck_damping), one_car(planar)
     states = []
     run(
         structure,

@@ -89,6 +89,21 @@ def test_realised_damping_of_the_longest_span():
     np.testing.assert_allclose(curve.get_ydata()[lowest], 0.8, rtol=1e-3)
 
 
+def test_realised_damping_of_modes():
+    results = Results(one=deck(-1.2e-3))
+    results.config["track"] = dict(results.config["track"], deck_damping="modal")
+    results.config["track"].pop("damping_frequencies", None)
+    results.config["track"] |= {"modal_damping_up_to": 50.0, "bearing_stiffness": 1e13}
+    (made,) = deck_damping.drawings(results)
+    (axes,) = made.draw().axes
+    squares = axes.lines[0]
+    # bending at f, 4 f, 9 f and 16 f; 50 Hz lets two of them in
+    frequencies = squares.get_xdata()
+    np.testing.assert_allclose(frequencies, 7.83 * np.array([1, 4, 9, 16]), rtol=2e-3)
+    np.testing.assert_allclose(squares.get_ydata(), [1.0, 1.0, 0.0, 0.0], atol=1e-12)
+    assert "to 50.0 Hz has the ratio that was asked for, 1.00 %" in made.caption
+
+
 def test_nothing_without_a_deck():
     nowhere = {key: [np.nan] * 3 for key in deck(1.0)}
     assert deck_table(Results(one=nowhere)) == []
