@@ -15,6 +15,7 @@ from contactstudy.contact.laws import (
 from contactstudy.contact.patch_laws import FollowingPatch, PatchLaw, WinklerBedding
 from contactstudy.track.beam import BeamTrack
 from contactstudy.track.discrete import DiscreteTrack
+from contactstudy.track.structure import StructureTrack
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -26,7 +27,7 @@ class BeyondPressWarning(UserWarning):
 
 def described_rail(track: DiscreteTrack) -> dict[str, object]:
     """Attributes of a run's dataset."""
-    if not isinstance(track, BeamTrack):
+    if not isinstance(track, BeamTrack | StructureTrack):
         return {"rail": "solid"}
     return {
         "rail": track.theory,

@@ -74,6 +74,7 @@ def test_a_train_enters_the_bridge_and_leaves_it():
 
 def test_a_planar_run_of_one_car():
     data = execute_run(study(spectrum="smooth"), "one")
+    assert (data.attrs["rail"], data.attrs["local_compliance"]) == ("euler", 0)
     assert data.contact_force.dims == ("wheel", "time")
     assert np.isfinite(data.contact_force).all()
     assert (data.deck_displacement.sel(station=16.0) < -1e-5).any()  # the middle of a span

@@ -14,7 +14,7 @@ from contactstudy.track.model import Ballast, DiscreteSupports, Slab, Track, Win
 from contactstudy.track.receptance import receptance
 from contactstudy.track.space_beam import N_DOFS, UX, UY, UZ, displacement
 from contactstudy.track.structure import LEFT, RIGHT, StructureTrack
-from contactstudy.track.structure_springs import FOOT_DEPTH, all_springs
+from contactstudy.track.structure_springs import FOOT_DEPTH, all_springs, bearings
 
 SOFT = DiscreteSupports(
     pad_stiffness=1e2,
@@ -151,6 +151,25 @@ def test_an_eccentric_load_twists_a_deck_held_at_both_ends():
     bent = P * a**2 * (L - a) ** 2 / (3 * deck.youngs_modulus * deck.second_moment * L)
     edge = (deck_row(structure, before + a, "Z", (0.0, 6.0, 0.0)) @ u)[0]
     assert edge == pytest.approx(bent + 6.0 * expected, rel=1e-4)
+
+
+def test_two_bearings_of_a_support_hold_a_deck_against_twist():
+    """Statics: R = P (L - a)/L and T = e R at the nearer end, R/2 + T/b on the loaded side."""
+    L, P, e, b = 32.0, 1e6, 3.0, 4.0
+    bridge = on_bridge(SOFT, spans=(L,), bearing_distance=b, **STIFF)
+    structure = StructureTrack(bridge, planar=False)
+    a = structure.nodes.decks[0].x[20] - structure.bridge.approach_before
+    at = structure.bridge.approach_before + a
+    u = statics(structure, -P * deck_row(structure, at, "Z", (0.0, e, 0.0))[0])
+    right, left = (
+        -one.springs.stiffness * (structure._frame.selected(one.springs.rows) @ u)
+        for one in bearings(structure.nodes, ("Z",))
+    )
+    ends = P * np.array([L - a, a]) / L
+    np.testing.assert_allclose(left, ends * (0.5 + e / b), rtol=1e-3)
+    np.testing.assert_allclose(right, ends * (0.5 - e / b), rtol=1e-3)  # e > b/2: it lifts
+    together = structure.bearing_rows("Z")[0] @ u  # positive in tension
+    np.testing.assert_allclose(together, -ends, rtol=1e-3)
 
 
 def test_lateral_load_above_the_deck_bends_it_sideways_and_twists_it():
