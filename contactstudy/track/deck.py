@@ -13,7 +13,7 @@ from typing import Annotated
 import numpy as np
 
 from contactstudy.track.space_beam import SpaceBeam
-from contactstudy.validation import Above, Key, Parameters, Unit
+from contactstudy.validation import Above, Key, Parameters, Unit, Usual
 from contactstudy.validation import quantities as q
 
 _SecondMoment = Annotated[float, Unit("m^4"), Above(0)]
@@ -99,7 +99,9 @@ class Antoing(DeckSection):
 class GivenDeck(DeckSection):
     """A deck by its values."""
 
-    youngs_modulus: Annotated[q.Modulus, Key("deck_youngs_modulus"), "of the deck"] = 34.5e9
+    youngs_modulus: Annotated[
+        q.Modulus, Usual(5e9, 2.5e11), Key("deck_youngs_modulus"), "of the deck"
+    ] = 34.5e9
     area: Annotated[
         float, Unit("m^2"), Above(0), Key("deck_area"), "area of the deck's section"
     ] = 8.889
@@ -115,8 +117,9 @@ class GivenDeck(DeckSection):
         "of the deck; a run in space needs it",
     ] = None  # fmt: skip
     mass_per_length: Annotated[
-        q.MassPerLength, Key("deck_mass_per_length"), "of the deck with all that is fixed to it"
-    ] = 34e3
+        q.MassPerLength, Usual(100.0, 5e5), Key("deck_mass_per_length"),
+        "of the deck with all that is fixed to it",
+    ] = 34e3  # fmt: skip
     poisson_ratio: Annotated[q.PoissonRatio, Key("deck_poisson_ratio"), "of the deck"] = 0.2
     damping_ratio: Annotated[
         q.Fraction, Key("deck_damping_ratio"),

@@ -11,6 +11,7 @@ from contactstudy.validation import (
     Naming,
     Parameters,
     Unit,
+    Usual,
     Written,
     complaint,
     parameters,
@@ -58,19 +59,28 @@ class Car(Parameters):
     length: Annotated[q.Length, "over the couplers"]
     pivot_distance: Annotated[q.Length, "between the middles of the bogies"]
     wheelbase: Annotated[q.Length, "between the wheelsets of a bogie"]
-    car_pitch_inertia: Annotated[float, *_INERTIA, "car body"]
-    bogie_mass: Annotated[q.Mass, "one bogie without its wheelsets"]
+    car_pitch_inertia: Annotated[float, *_INERTIA, Usual(1e4, 1e8), "car body"]
+    bogie_mass: Annotated[q.Mass, Usual(500.0, 2e4), "one bogie without its wheelsets"]
     bogie_pitch_inertia: Annotated[float, *_INERTIA, "one bogie"]
-    wheelset_mass: Annotated[q.Mass, "one wheelset"]
-    primary_vertical_stiffness: Annotated[q.Stiffness, _WHEELSET]
+    wheelset_mass: Annotated[q.Mass, Usual(300.0, 6e3), "one wheelset"]
+    primary_vertical_stiffness: Annotated[q.Stiffness, Usual(1e5, 1e8), _WHEELSET]
     primary_vertical_damping: Annotated[q.Damping, _WHEELSET]
-    secondary_vertical_stiffness: Annotated[q.Stiffness, _BOGIE]
+    secondary_vertical_stiffness: Annotated[q.Stiffness, Usual(1e5, 1e9), _BOGIE]
     secondary_vertical_damping: Annotated[q.Damping, _BOGIE]
     car_mass: Annotated[
-        float | None, Unit("kg"), Above(0), "car body; give either this or axle_load"
+        float | None,
+        Unit("kg"),
+        Above(0),
+        Usual(3e3, 2e5),
+        "car body; give either this or axle_load",
     ] = None
     axle_load: Annotated[
-        float | None, Unit("N"), Above(0), WEIGHT, "of each wheelset; the car body has the rest"
+        float | None,
+        Unit("N"),
+        Above(0),
+        Usual(2e4, 5e5),
+        WEIGHT,
+        "of each wheelset; the car body has the rest",
     ] = None
     wheel_radius: Annotated[q.Length, "radius at the tape circle"] = 0.43
     pivot_offset: Annotated[

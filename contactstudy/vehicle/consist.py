@@ -28,6 +28,19 @@ class _OfCars(Parameters, ABC):
         """Each car, front to rear."""
 
     @property
+    @abstractmethod
+    def _entries(self) -> dict[str, Car]:
+        """The car of each entry of the key that names them."""
+
+    def unusual(self, key: Naming | None = None) -> list[str]:
+        """As in `Parameters`, with what is unusual in the files of the cars."""
+        own, name = super().unusual(key), key or self._naming()
+        for entry, car in self._entries.items():
+            field, *place = entry.split(".")
+            own += [f"{'.'.join([name(field), *place])}: {text}" for text in car.unusual()]
+        return own
+
+    @property
     def leading(self) -> Car:
         """The first car."""
         return self.cars_read[0]
@@ -115,6 +128,10 @@ class Train(_OfCars):
         return tuple(car for car, _ in self.consist)
 
     @property
+    def _entries(self) -> dict[str, Car]:
+        return {f"cars.{k}": _read(text)[0] for k, text in enumerate(self.cars)}
+
+    @property
     def length(self) -> float:
         """Over the couplers [m]."""
         return sum(car.length for car, _ in self.consist) + sum(self._gaps)
@@ -190,6 +207,10 @@ class Bogie(_OfCars):
         """See `_OfCars.cars_read`."""
         return (read_car(self.car),)
 
+    @property
+    def _entries(self) -> dict[str, Car]:
+        return {"car": self.leading}
+
     def vehicle(self) -> Vehicle:
         """Dofs car body z, bogie z and pitch, two wheelsets z."""
         return bogie_vehicle(self.leading)
@@ -206,5 +227,7 @@ def _read(text: str) -> tuple[Car, list[tuple[Car, bool]]]:
     match = _ENTRY.fullmatch(text)
     if match is None:
         raise InputError(f'"{text}" names no car')
+    if match["count"] is None and re.match("[0-9]+ x ", text):
+        raise InputError(f'"{text}": must be 1 to 999 of a car')
     car = read_car(match["file"])
     return car, [(car, match["reversed"] is not None)] * int(match["count"] or 1)

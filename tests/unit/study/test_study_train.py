@@ -61,6 +61,18 @@ def test_a_car_from_a_users_file_stands_on_its_weight(tmp_path):
     np.testing.assert_allclose(data.contact_force.mean("time"), 10e3 * G / 2, rtol=0.05)
 
 
+def test_what_is_far_from_usual_in_a_cars_file_is_warned_of(tmp_path):
+    """A mass in t without its unit is one in kg."""
+    from contactstudy.study.kinds.passage.remarks import remarks
+
+    text = OWN.format(load="10 t")
+    mass = next(line for line in text.splitlines() if line.startswith("bogie_mass"))
+    (tmp_path / "own.toml").write_text(text.replace(mass, "bogie_mass = 2.8"))
+    told = "\n".join(remarks(study(tmp_path, 'type = "train"\ncars = ["own.toml"]')))
+    assert "vehicle.cars.0: car.bogie_mass = 2.8: usual is 500 to 2e+04 kg" in told
+    assert told.count("usual is") == 1
+
+
 def test_the_content_of_a_cars_file_decides_its_results(tmp_path):
     own = tmp_path / "own.toml"
     keys = []
@@ -110,6 +122,7 @@ def test_shipped_vehicles_are_read(tmp_path, vehicle, wheels):
         ('type = "train"\ncars = ["s300", "s300"]\ngaps = "-1 m"', "",
          r"vehicle\.gaps\.0 = -1\.0: neighbouring cars overlap by 1 m"),
         ('type = "train"\ncars = []', "", r"vehicle\.cars: must name at least one car"),
+        ('type = "train"\ncars = ["0 x s300"]', "", '"0 x s300": must be 1 to 999 of a car'),
         ('type = "train"\ncars = ["own.toml"]', "", r"own\.toml: there is no such file"),
         ('type = "train"\ncars = ["s300"]\nmodel = "three_dimensional"', "",
          r"vehicle\.model = \"three_dimensional\": car s300 lacks lateral data"),
