@@ -70,7 +70,7 @@ def test_impossible_trains():
         Train(cars=("high_speed_motor", "s300"), model="three_dimensional")
     with pytest.raises(InputError, match="must name at least one car"):
         Train(cars=())
-    with pytest.raises(InputError, match='car "0 x s300" is unknown'):
+    with pytest.raises(InputError, match='"0 x s300": must be 1 to 999 of a car'):
         Train(cars=("0 x s300",))
     with pytest.raises(InputError, match="is unknown"):
         Bogie(car="express")
