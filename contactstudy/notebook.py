@@ -133,7 +133,7 @@ def sweep(
     -------
     xarray.Dataset
         What was measured, labelled with the varied keys; nan and ``failure`` where a variant
-        failed.
+        failed. A notebook shows tables of it above.
 
     Raises
     ------
@@ -143,7 +143,11 @@ def sweep(
     made = load_study(study, _mapping("values", values), sweep=_mapping("series", series))
     if not isinstance(made, Swept):
         raise InputError(f"series = {series!r}: must name at least one key that is varied")
-    return next(iter(_run(made, out, workers, scheduler, False, overwrite).designs.values()))
+    from contactstudy.study.tree import KIND, Measured
+
+    results = _run(made, out, workers, scheduler, False, overwrite)
+    data = next(iter(results.designs.values()))
+    return Measured(data.data_vars, data.coords, data.attrs | {KIND: results.kind})
 
 
 def _mapping(name: str, given: Mapping[str, Any] | None) -> Mapping[str, Any]:

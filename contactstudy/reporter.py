@@ -98,3 +98,10 @@ class NotedOnce:
         if text not in self._noted:
             self._noted.add(text)
             self._reporter.note(text)
+
+
+class WithoutNotes(NotedOnce):
+    """A `Reporter` that passes on all but notes."""
+
+    def note(self, text: str) -> None:
+        """Nothing."""

@@ -3,7 +3,7 @@
 The blocks of a page are run one after the other in a folder of its own:
 
 - ``toml``: a file; the comment in the first line names it, ``# line.toml``, or one that these lines
-  are added to, ``# more of line.toml``;
+  are added to, ``# more of line.toml``, or one whose tables these replace, ``# in line.toml``;
 - ``bash``: each line that begins with ``contactstudy`` is run;
 - ``python``: run with the names of the blocks before it;
 - ``text``: lines that the block before it printed, in this order. A number with decimals may be off
@@ -28,6 +28,7 @@ from contactstudy.files import write_file
 from contactstudy.store import store_key
 
 _BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.DOTALL | re.MULTILINE)
+_WHOLE = re.DOTALL | re.MULTILINE
 _NUMBER = r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?"
 _PERCENT = re.compile(rf"({_NUMBER}) %")
 
@@ -114,12 +115,21 @@ def _equal(shown: str, number: float) -> bool:
 
 
 def _file(content: str, place: str) -> None:
-    first = re.match(r"# (more of )?(\S+)\n", content)
+    first = re.match(r"# (more of |in )?(\S+)\n", content)
     if not first:
         raise PageError(f"{place}: its first line does not name a file")
-    more, name = first.groups()
-    before = Path(name).read_text("utf-8") + "\n" if more else ""
-    Path(name).write_text(before + content, "utf-8")
+    how, path = first[1], Path(first[2])
+    before = path.read_text("utf-8") + "\n" if how else ""
+    if how != "in ":
+        path.write_text(before + content, "utf-8")
+        return
+    for table in re.split(r"^(?=\[)", content, flags=re.MULTILINE)[1:]:
+        head = table.partition("\n")[0]
+        parts = before.partition(f"{head}\n")
+        if not parts[1]:
+            raise PageError(f"{place}: {path} has no table {head}")
+        before = parts[0] + table + re.sub(r"\A.*?(?=^\[|\Z)", "", parts[2], flags=_WHOLE)
+    path.write_text(before, "utf-8")
 
 
 def _run(language: str, content: str, names: dict[str, Any], place: str) -> None:

@@ -16,7 +16,7 @@ from contactstudy.compare import norms
 from contactstudy.compare.signals import dynamic, position, side_by_side, values
 from contactstudy.driver import compute_study
 from contactstudy.exceptions import ContactStudyError, InputError
-from contactstudy.reporter import NotedOnce, Reporter
+from contactstudy.reporter import NotedOnce, Reporter, WithoutNotes
 from contactstudy.study.kinds.passage import contact, forecast
 from contactstudy.study.kinds.passage.record import MeasuredRecord
 from contactstudy.study.kinds.passage.runs import SOLVERS
@@ -171,7 +171,7 @@ class Trials:
                 continue
             both = self.with_schemes({other: every[other], **own})
             points = replace(both, runs={n: both.runs[n] for n in (other, *own)}, reference=other)
-            found |= varied(points, over, self.part, self.folder, self.reporter)
+            found |= varied(points, over, self.part, self.folder, self._mute)
         return {name: found[name] for name in wanted}
 
     def proof(self, name: str, scheme: Scheme, over: Samples) -> float:
@@ -195,8 +195,13 @@ class Trials:
         return {"stiffness": stiffness, "patch": 2.0 * half}
 
     def _compute(self, study: Study) -> Mapping[str, xr.Dataset]:
-        here = self.workers == 1
-        return compute_study(study, self.folder, self.workers, self.reporter, here=here).runs
+        here, reporter = self.workers == 1, self.reporter if study == self.study else self._mute
+        return compute_study(study, self.folder, self.workers, reporter, here=here).runs
+
+    @property
+    def _mute(self) -> Reporter | None:
+        """Of schemes and meshes that are only tried nobody is warned: they are judged by errors."""
+        return None if self.reporter is None else WithoutNotes(self.reporter)
 
 
 def _run(name: str, table: Mapping[str, Any]) -> Any:

@@ -1,11 +1,10 @@
 """The commands; each imports what it computes with when it is called."""
 
-from typing import Literal
-
 from cyclopts import App
 
 from contactstudy.commands.advising import advise, verify_advice
 from contactstudy.commands.asking import check, status
+from contactstudy.commands.completing import completion
 from contactstudy.commands.exporting import export
 from contactstudy.commands.listing import cache, keys, studies, vehicles
 from contactstudy.commands.looking import diff, plot
@@ -48,12 +47,7 @@ _COMMANDS = (
     vehicles,
     keys,
     cache,
+    completion,
 )
 for command in _COMMANDS:
     app.command(command)
-
-
-@app.command
-def completion(shell: Literal["bash", "zsh", "fish"]) -> None:
-    """Print a script with which a shell completes: eval "$(contactstudy completion bash)"."""
-    print(app.generate_completion(prog_name=app.name[0], shell=shell))

@@ -1,4 +1,4 @@
-"""Results as one tree that shows, where pages can be shown, its runs, their norms and units."""
+"""Results as a notebook shows them: runs, their norms and units, what was measured over axes."""
 
 from __future__ import annotations
 
@@ -9,6 +9,11 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from contactstudy.plot.text import counted
+from contactstudy.study.axes.axis import axis_of
+from contactstudy.study.axes.dataset import FAILURE
+from contactstudy.study.axes.tables import tables
+from contactstudy.study.results import StudyResults
 from contactstudy.study.study import NORMS
 
 _TEXTS = {
@@ -23,15 +28,38 @@ _DYNAMIC = "relative_l2_dynamic"
 _SHOWN = {"relative_l2": "total (%)", _DYNAMIC: "dynamic (%)"}
 _BOTH = "contact_force"
 """Of this signal both are shown, of others the dynamic part alone."""
+KIND = "kind"
+"""Attribute of what was measured: the kind of its study."""
+_MOST = 6
+"""Values of an axis that are listed."""
 
 
 class ResultTree(xr.DataTree):
-    """An `xarray.DataTree` whose page begins with the runs and their norms."""
+    """An `xarray.DataTree` whose page begins with the runs and their norms, or the variants."""
 
     __slots__ = ()
 
     def _repr_html_(self) -> str:
-        return _overview(self) + str(super()._repr_html_())
+        found = {str(name): node.to_dataset() for name, node in self.children.items()}
+        designs = {name: data for name, data in found.items() if "design" in data.attrs}
+        told = _measured(str(self.attrs.get("kind", "")), designs) if designs else ""
+        title = f"<h4>{html.escape(title)}</h4>" if (title := self.attrs.get("title")) else ""
+        return title + _overview(self) + told + str(super()._repr_html_())
+
+
+class Measured(xr.Dataset):
+    """What was measured of the variants of a design; its page begins with tables of it.
+
+    What is left of it after a selection shows as xarray shows it.
+    """
+
+    __slots__ = ()
+
+    def _repr_html_(self) -> str:
+        kind, name = self.attrs.get(KIND, ""), self.attrs.get("design", "")
+        whole = all(coord.ndim for key, coord in self.coords.items() if "." in str(key))
+        shown = kind and name and whole and FAILURE in self
+        return (_measured(kind, {name: self}) if shown else "") + str(super()._repr_html_())
 
 
 def norms(
@@ -86,8 +114,29 @@ def _overview(tree: xr.DataTree) -> str:
     }
     histories = ", ".join(f"{name} ({unit})" for name, unit in units.items())
     told = f"<p>Histories: {html.escape(histories)}</p>" if histories else ""
-    title = html.escape(str(tree.attrs.get("title", "")))
-    return f"<h4>{title}</h4>{_table(heads, rows)}{told}"
+    return _table(heads, rows) + told
+
+
+def _measured(kind: str, designs: Mapping[str, xr.Dataset]) -> str:
+    """Of each design how many variants there are, over which keys; and its tables."""
+    parts = []
+    for name, data in designs.items():
+        failed = int((data[FAILURE] != "").sum())
+        axes = "; ".join(_values(data, str(dim)) for dim in data["variant"].dims)
+        told = f"{name}: {counted(data['variant'].size, 'variant')} over {axes}"
+        parts.append(f"<p>{html.escape(told)}{f'; {failed} failed' if failed else ''}</p>")
+    results = StudyResults("", "", "", {}, {}, {}, None, {}, kind=kind, groups=designs)
+    for made in tables(results):
+        parts.append(f"<p><b>{html.escape(made.title)}</b></p>{_table(made.columns, made.rows)}")
+    return "".join(parts)
+
+
+def _values(data: xr.Dataset, dim: str) -> str:
+    """An axis, and its values or its ends."""
+    axis = axis_of(data, dim)
+    few = len(axis.names) <= _MOST
+    told = ", ".join(axis.names) if few else f"{axis.names[0]} ... {axis.names[-1]}"
+    return f"{axis.title.partition(' (')[0]} ({told})"
 
 
 def _norm(found: xr.Dataset, run: str, signal: str, norm: str) -> float:

@@ -5,6 +5,7 @@ import html.parser
 import json
 import re
 import shlex
+import tomllib
 from pathlib import Path
 from typing import get_args, get_type_hints
 
@@ -117,6 +118,38 @@ def test_a_page_that_says_something_else_is_refused(
     page = PAGE.replace(right, wrong) if right != "of" else PAGE.replace("...", wrong)
     with pytest.raises(executed.PageError, match=re.escape(told)):
         executed.run_page("page.md", page)
+
+
+TABLES = """
+```toml
+# mine.toml
+title = "Mine"
+
+[one]
+a = 1
+
+[two]
+a = 2
+b = 2
+
+[three]
+```
+
+```toml
+# in mine.toml
+[two]
+b = 3
+```
+"""
+
+
+def test_tables_of_a_file_are_put_in_the_place_of_its_own(executed, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    executed.run_page("page.md", TABLES)
+    found = tomllib.loads(Path("mine.toml").read_text("utf-8"))
+    assert found == {"title": "Mine", "one": {"a": 1}, "two": {"b": 3}, "three": {}}
+    with pytest.raises(executed.PageError, match=r"page\.md:16: mine\.toml has no table \[four\]"):
+        executed.run_page("page.md", TABLES.replace("[two]\nb = 3", "[four]"))
 
 
 def test_formulas_need_no_script(site):

@@ -1,8 +1,12 @@
 """Options that commands share, JSON for other programs, completion for shells."""
 
 import json
+import os
+import pty
+import select
 import shutil
 import subprocess
+import time
 
 import pytest
 from short_study import HERTZ, POINT
@@ -58,34 +62,59 @@ def test_quiet_says_nothing_and_verbose_more(short, tmp_path, capfd):
     assert "track.length" in capfd.readouterr().err
 
 
-@pytest.mark.parametrize(
-    ("typed", "completed"),
-    [
-        ("contactstudy rep", "reproduce"),
-        ("contactstudy run --work", "--workers"),
-        ("contactstudy check mi", "mine.toml"),
-        ("contactstudy new other.toml --like mi", "mine.toml"),
-    ],
-)
-def test_bash_completes_commands_options_and_files(typed, completed, tmp_path, capfd):
-    if not (bash := shutil.which("bash")):
-        pytest.skip("there is no bash")
-    assert cli.main(["completion", "bash"]) == 0
-    (tmp_path / "completion.sh").write_text(capfd.readouterr().out, "utf-8")
-    (tmp_path / "mine.toml").touch()
-    words = typed.split()
-    script = (
-        f"source {tmp_path / 'completion.sh'}; COMP_WORDS=({typed}); "
-        f"COMP_CWORD={len(words) - 1}; COMP_LINE='{typed}'; COMP_POINT={len(typed)}; "
-        f'_contactstudy contactstudy {words[-1]} {words[-2]}; echo "${{COMPREPLY[@]}}"'
-    )
-    told = {"capture_output": True, "text": True, "check": True, "cwd": tmp_path}
-    made = subprocess.run([bash, "-c", script], **told)
-    assert completed in made.stdout.split()
-    assert made.stderr == ""
+COMPLETED = {
+    "contactstudy rep": "contactstudy reproduce",
+    "contactstudy run --work": "contactstudy run --workers",
+    "contactstudy check mi": "contactstudy check mine.toml",
+    "contactstudy run wheel_mo": "contactstudy run wheel_models",
+    "contactstudy reproduce ladder wheel_mo": "contactstudy reproduce ladder wheel_models",
+    "contactstudy new mine.toml --like wheel_mo": "contactstudy new mine.toml --like wheel_models",
+    "contactstudy verify short_w": "contactstudy verify short_waves",
+}
+INTERACTIVE = {"bash": ("--norc", "--noprofile", "-i"), "zsh": ("-f", "-i")}
 
 
-@pytest.mark.parametrize("shell", ["zsh", "fish"])
-def test_other_shells_get_a_script(shell, capfd):
+@pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
+def test_shells_complete_commands_options_files_and_names(shell, tmp_path, monkeypatch, capfd):
+    if not (program := shutil.which(shell)):
+        pytest.skip(f"there is no {shell}")
     assert cli.main(["completion", shell]) == 0
-    assert "contactstudy" in capfd.readouterr().out
+    (tmp_path / "completion").write_text(capfd.readouterr().out, "utf-8")
+    (tmp_path / "mine.toml").touch()
+    monkeypatch.chdir(tmp_path)
+    if shell == "fish":
+        for typed, whole in COMPLETED.items():
+            asked = [program, "-N", "-c", f"source ./completion; complete -C '{typed}'"]
+            made = subprocess.run(asked, capture_output=True, text=True, check=True)
+            found = [line.partition("\t")[0] for line in made.stdout.splitlines()]
+            assert (found, made.stderr) == ([whole.split()[-1]], "")
+    else:
+        found = tabbed([program, *INTERACTIVE[shell]], "source ./completion", list(COMPLETED))
+        assert found == list(COMPLETED.values())
+
+
+def tabbed(shell, setup, lines):
+    """What lines are to an interactive shell when the tabulator is pressed at their ends."""
+    process, terminal = pty.fork()
+    if process == 0:
+        os.execv(shell[0], shell)
+    # the mark of the end is not in what is typed, which the terminal shows as well
+    shown = "contactstudy() { printf '<<%s>''>' \"contactstudy $*\"; }"
+    os.write(terminal, f"{setup}; {shown}; printf '<<ready>''>'\n".encode())
+    told = [answer(terminal)]
+    for line in lines:
+        os.write(terminal, f"{line}\t\n".encode())
+        told.append(answer(terminal))
+    os.write(terminal, b"exit\n")
+    os.close(terminal)
+    os.waitpid(process, 0)
+    assert told[0] == "ready"
+    return told[1:]
+
+
+def answer(terminal):
+    got, end = b"", time.monotonic() + 60
+    while b">>" not in got and time.monotonic() < end:
+        if select.select([terminal], [], [], 0.1)[0]:
+            got += os.read(terminal, 4096)
+    return got.rpartition(b">>")[0].rpartition(b"<<")[2].decode().strip()

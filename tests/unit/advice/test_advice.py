@@ -1,13 +1,17 @@
 """Which scheme suffices: the choice among schemes, and the promise kept on another sample."""
 
+from types import SimpleNamespace
+
 import pytest
 
+from contactstudy.advice import trials
 from contactstudy.advice.advise import Advice, Tried, advise, read_bound
 from contactstudy.advice.draws import LISTS, RANGES, drawn, draws
 from contactstudy.advice.schemes import FAMILIES, Scheme, schemes
 from contactstudy.advice.terminal import cause
 from contactstudy.cli import main
 from contactstudy.exceptions import InputError
+from contactstudy.reporter import Quiet
 from contactstudy.study.kinds.passage.reading import parse_study
 from contactstudy.study.loading import load_study
 from contactstudy.units import to_si
@@ -68,6 +72,26 @@ def test_the_cause_is_what_takes_most_of_the_error():
     # from shear to press hardly anything, so that it is what the press still leaves out
     assert cause(advice, "shear") == FAMILIES["press"].lacks
     assert cause(advice, "bay") == FAMILIES["bay"].lacks
+
+
+def test_of_what_is_only_tried_nobody_is_warned(tmp_path, monkeypatch):
+    told = []
+
+    class Listening(Quiet):
+        def note(self, text):
+            told.append(text)
+
+    def compute(study, folder, workers, reporter, here):
+        reporter.note(f"{', '.join(study.runs)}: long steps")
+        return SimpleNamespace(runs={})
+
+    monkeypatch.setattr(trials, "compute_study", compute)
+    made = trials.Trials.of(load_study("ladder"), "dynamic", tmp_path, 1, Listening())
+    made.run({name: schemes(5e-5)[name] for name in ("tangent_2_4", "shear_2_4")})
+    assert told == []
+    made.run({})
+    made.run({})
+    assert told == ["surface: long steps"]  # the study's own, once
 
 
 SHORT = {

@@ -76,3 +76,24 @@ def test_no_run_may_have_the_name_of_a_group(tmp_path):
     (tmp_path / "two.toml").write_text(STUDY.replace("runs.euler", "runs.norms"), "utf-8")
     with pytest.raises(InputError, match=r"runs.norms: a run cannot be called 'norms'"):
         cs.load(tmp_path / "two.toml")
+
+
+def test_a_page_of_a_study_with_axes_tells_its_variants(law, tmp_path):
+    """5 + x^order, from the law of these tests; one variant of it fails."""
+    study, axes = law(own="breaks_at = 3.0"), {"law.x": "1 m to 3 m by 1 m", "law.order": [1, 2]}
+    cs.sweep(study, axes, out=tmp_path / "out", workers=1)
+    page = cs.open(tmp_path / "out")._repr_html_()
+    assert "<p>sweep: 6 variants over x (1 m, 2 m, 3 m); order (1, 2); 2 failed</p>" in page
+    assert "<td>9.00</td>" in row(page, "2 m", "2") and "Largest y (m)" in page  # 5 + 2^2
+    data = cs.sweep(law(), axes, workers=1)
+    page = data._repr_html_()
+    assert "<td>14.0</td>" in row(page, "3 m", "2") and "failed" not in page
+    # what is left after a selection is shown as xarray shows it
+    for part in (data.isel({"law.x": 0}), data[["largest"]], data.mean("law.x")):
+        assert "<p>sweep" not in part._repr_html_()
+
+
+def row(page, *values):
+    """Cells of a table behind the values of the axes."""
+    head = "".join(f"<td>{value}</td>" for value in values)
+    return page.partition(f"<tr>{head}")[2].partition("</tr>")[0]
