@@ -12,11 +12,10 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.backends.backend_pdf import FigureCanvasPdf
 from matplotlib.figure import Figure
-from matplotlib.ticker import LogFormatterSciNotation
 
 from contactstudy.files import writing
 from contactstudy.plot.fonts import families
-from contactstudy.plot.text import tick
+from contactstudy.plot.ticks import plain_powers, without_overlaps
 
 # Width of the text block of the A4 report: figures are placed unscaled, so their fonts are
 # the size given here.
@@ -155,6 +154,7 @@ def save(figure: Figure, folder: Path, name: str) -> list[Path]:
     layout = figure.get_layout_engine()
     if layout is not None:
         layout.execute(figure)
+    without_overlaps(figure)
     figure.set_layout_engine("none")
     pdf, png = folder / f"{name}.pdf", folder / f"{name}.png"
     with writing(pdf) as stream:
@@ -164,31 +164,6 @@ def save(figure: Figure, folder: Path, name: str) -> list[Path]:
         figure.set_dpi(PNG_DPI)
         FigureCanvasAgg(figure).print_png(stream, metadata={"Software": None})
     return [pdf, png]
-
-
-class _Powers(LogFormatterSciNotation):
-    """Ticks of a logarithmic axis as "2·10⁻³": plain text, for texts of figures are no markup."""
-
-    def __call__(self, x: float, pos: int | None = None) -> str:
-        """The text of a tick, "" for one that has none."""
-        return tick(x) if super().__call__(x, pos) else ""
-
-
-def plain_powers(figure: Figure) -> None:
-    """Give all logarithmic axes of a figure ticks without markup."""
-    axes = [axes for one in figure.axes for axes in (one, *one.child_axes)]
-    for axis in (axis for one in axes for axis in (one.xaxis, one.yaxis)):
-        for formatter, replace in (
-            (axis.get_major_formatter(), axis.set_major_formatter),
-            (axis.get_minor_formatter(), axis.set_minor_formatter),
-        ):
-            if type(formatter) is LogFormatterSciNotation:
-                replace(
-                    _Powers(
-                        labelOnlyBase=formatter.labelOnlyBase,
-                        minor_thresholds=formatter.minor_thresholds,
-                    )
-                )
 
 
 def map_axes(axes: Axes, x_label: str, y_label: str = "") -> None:
