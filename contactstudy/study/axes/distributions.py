@@ -36,6 +36,8 @@ def distribution(given: Any, parameter: Parameter) -> Quantile | None:
         mean, deviation = (to_si(part, unit) for part in match.groups())
         if deviation <= 0.0:
             raise UnitError(f"needs a standard deviation above 0 {unit}".rstrip())
+        if parameter.limits.whole:
+            return lambda p: np.rint(mean + deviation * _standard_normal(p))
         return lambda p: mean + deviation * _standard_normal(p)
     if match := _RANGE.fullmatch(text):
         low, high = (to_si(part, unit) for part in match.groups()[1:])
@@ -43,15 +45,22 @@ def distribution(given: Any, parameter: Parameter) -> Quantile | None:
         if not low < high or (logarithmic and low <= 0.0):
             above = "above 0 and " if logarithmic else ""
             raise UnitError(f"must lead from a lower to a higher value, {above}lowest first")
-        if logarithmic:
-            a, b = math.log(low), math.log(high)
-            return lambda p: np.exp(a + (b - a) * p)
-        if parameter.limits.whole:  # each whole number equally likely, the ends included
-            return lambda p: np.floor(low + (high + 1.0 - low) * p)
-        return lambda p: low + (high - low) * p
+        if parameter.limits.whole:  # each stands for the numbers about it, the ends as the others
+            if low % 1.0 or high % 1.0:
+                raise UnitError("must lead from one whole number to another")
+            between = _between(low - 0.5, high + 0.5, logarithmic)
+            return lambda p: np.clip(np.floor(between(p) + 0.5), low, high)
+        return _between(low, high, logarithmic)
     if text.startswith(("uniform", "log-uniform", "normal")):
         raise UnitError(_FORM)
     return None
+
+
+def _between(low: float, high: float, logarithmic: bool) -> Quantile:
+    if not logarithmic:
+        return lambda p: low + (high - low) * p
+    a, b = math.log(low), math.log(high)
+    return lambda p: np.exp(a + (b - a) * p)
 
 
 def points(method: str, dimensions: int, number: int, seed: int) -> Array:

@@ -122,6 +122,17 @@ def test_whole_numbers_are_equally_likely():
     ]  # fmt: skip
 
 
+def test_whole_numbers_are_rounded_not_cut_off():
+    p, key = (np.arange(200_000) + 0.5) / 200_000, parameter("runs.point.elements_per_bay")
+    drawn = distribution("log-uniform 2 to 32", key)(p)
+    share = np.log((np.arange(2, 33) + 0.5) / (np.arange(2, 33) - 0.5)) / np.log(32.5 / 1.5)
+    assert np.bincount(drawn.astype(int))[2:] / len(p) == pytest.approx(share, abs=1e-5)
+    drawn = distribution("normal 8, 1.5", key)(p)
+    assert np.all(drawn % 1 == 0) and drawn.mean() == pytest.approx(8.0, abs=1e-3)
+    with pytest.raises(UnitError, match="one whole number to another"):
+        distribution("uniform 1.5 to 4", key)
+
+
 @pytest.mark.parametrize("text", ["uniform 2 m to 1 m", "log-uniform 0 m to 1 m", "normal 1 m"])
 def test_impossible_distributions(text):
     with pytest.raises(UnitError):
