@@ -83,7 +83,7 @@ def _refinable(name: str) -> list[str]:
     study = tomllib.loads(find_study(name).read_text("utf-8"))
     files = [find_study(companion).read_text("utf-8") for companion in study["companions"]]
     keys = [key for file in files for key in tomllib.loads(file)["refine"] if "." in key]
-    return [label(key.partition(".")[2]) for key in keys]
+    return [label(key.rpartition(".")[2]) for key in keys]
 
 
 def _failures(data) -> list:

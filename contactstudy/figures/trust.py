@@ -34,6 +34,10 @@ LEVELS = (1.0, 2.0, 5.0, 10.0)
 _BOUNDS = (0.5, *LEVELS, 20.0, 50.0, 100.0)
 _SHARE = 1.0 / 3.0
 """Share of a difference from which the reference's own error is hatched."""
+_FEW = 2
+"""Speeds beside each other at most for which there is room for more ticks and for labels."""
+_LEAST = 1e-9
+"""Error of the reference that counts as none."""
 _SELECT = {"signal": "contact_force", "part": "irregularity"}
 
 
@@ -111,7 +115,8 @@ def _own_error(
     """Sum of the differences from the finest, of all that a companion refines, and of what.
 
     At the values that the map has, over its wavelengths and speeds; between those of the companion
-    it is interpolated, over the logarithm of the wavelength.
+    it is interpolated: its logarithm, over that of the wavelength and over the speed, for it grows
+    by decades where a wave comes near a mode that is left out.
     """
     total, refined = None, list[str]()
     for companion in results.companions:
@@ -119,15 +124,27 @@ def _own_error(
             key = design.attrs["refined"]
             if not key or not {WAVELENGTH, SPEED} <= set(design.dims):
                 continue
-            table, _, name = key.partition(".")
             at = design["from_finest"].sel(_SELECT).isel(run=0)
-            at = at.sel({key: companion.config[table][name]}, method="nearest", drop=True)
+            at = at.sel({key: _given(companion, design, key)}, method="nearest", drop=True)
+            at = at.copy(data=np.log(np.maximum(at.values, _LEAST)))
             at = at.assign_coords({WAVELENGTH: np.log(at[WAVELENGTH])})
             points = {WAVELENGTH: np.log(data[WAVELENGTH].values), SPEED: data[SPEED].values}
             found = _interpolated(at, points).transpose(SPEED, WAVELENGTH)
+            found = found.copy(data=np.exp(found.values))
             total = found if total is None else total + found
-            refined.append(label(name))
+            refined.append(label(key.rpartition(".")[2]))
     return (None if total is None else 100.0 * total), tuple(refined)
+
+
+def _given(companion: StudyResults, design: xr.Dataset, key: str) -> float:
+    """The value of a refined key that the map has, as on the refinement's axis."""
+    if design[key].attrs.get("factor_of"):
+        return 1.0
+    *tables, name = key.split(".")
+    of: Any = companion.config
+    for table in tables:
+        of = of[table]
+    return float(of[name])
 
 
 def _interpolated(values: xr.DataArray, points: dict[str, Array]) -> xr.DataArray:
@@ -208,26 +225,30 @@ def _draw(found: TrustMap) -> Figure:
             axes.grid(False)
             _overlay(axes, found, values, k)
         row[0].set_ylabel(label(run), fontsize=8)
-    _natural(grid[0, 0].xaxis, found.edges[0] / _units(found)[0], _units(found)[0])
+    unit = _units(found)[0]
+    _natural(grid[0, 0].xaxis, found.edges[0] / unit, unit, wide=speeds <= _FEW)
     for axes, name in zip(grid[0], found.speed.names, strict=True):
         axes.set_title(name)
     figure.supxlabel("wavelength", fontsize=9)
     figure.supylabel(found.amplitude.title, fontsize=9)
-    figure.colorbar(mesh, ax=grid.ravel().tolist(), label="error (%)", shrink=0.6)
+    bar = figure.colorbar(
+        mesh, ax=grid.ravel().tolist(), label="error (%)", shrink=0.6, fraction=0.05, aspect=30
+    )
+    bar.set_ticks(_BOUNDS, labels=[exact(v) for v in _BOUNDS])
     return figure
 
 
-def _natural(axis: Any, metres: Array, unit: float) -> None:
+def _natural(axis: Any, metres: Array, unit: float, wide: bool) -> None:
     """Ticks at round lengths, below a metre in mm; `unit` is what the axis has for a metre."""
     first, last = np.floor(np.log10(metres[0])), np.ceil(np.log10(metres[-1]))
     decades = 10.0 ** np.arange(first, last + 1)
     close = metres[-1] < 20.0 * metres[0]
-    steps = (1.0, 2.0, 5.0) if close else (1.0, 3.0)
+    steps = (1.0, 2.0, 5.0) if close else (1.0, 3.0) if wide else (1.0,)
     at = [d * s for d in decades for s in steps if metres[0] <= d * s <= metres[-1]]
     axis.set_major_locator(FixedLocator([unit * v for v in at]))
     axis.set_minor_formatter(NullFormatter())
     names = [f"{exact(1e3 * v, 3)} mm" if v < 0.999 else f"{exact(v, 3)} m" for v in at]
-    axis.set_ticklabels(names, fontsize=6)
+    axis.set_ticklabels(names)
 
 
 def _overlay(axes: Axes, found: TrustMap, values: Array, speed: int) -> None:
@@ -237,7 +258,8 @@ def _overlay(axes: Axes, found: TrustMap, values: Array, speed: int) -> None:
         there = np.ma.masked_invalid(values)
         if inside:
             lines = axes.contour(x, y, there, levels=inside, colors=BLACK, linewidths=0.7)
-            axes.clabel(lines, fontsize=6, fmt=lambda v: number(v, 2))
+            if len(found.speed.at) <= _FEW:
+                axes.clabel(lines, fontsize=6, fmt=exact)
         lost = np.ma.masked_invalid(found.lost.values[speed])
         if 0.0 < lost.mean() < 1.0:
             axes.contour(x, y, lost, levels=[0.5], colors=VERMILION, linewidths=1.0)

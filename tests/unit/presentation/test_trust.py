@@ -8,6 +8,7 @@ import xarray as xr
 
 from contactstudy.figures.trust import AMPLITUDE, SPEED, WAVELENGTH, drawings, trust_map
 from contactstudy.figures.trust_levels import amplitude, limit_level
+from contactstudy.study.loading import load_study
 from contactstudy.study.results import StudyResults
 
 WAVES, HEIGHTS, SPEEDS = [0.02, 0.1, 1.0], [2e-6, 2e-4], [20.0, 80.0]
@@ -58,21 +59,42 @@ def companion(key, values, at, base):
     spread = np.broadcast_to(np.array(at)[None, None, :, None, None, None], shape).copy()
     spread[1] *= 3.0  # at the longest wave
     data["from_finest"] = ([*dims, "run", "signal", "part"], spread)
-    table, _, name = key.partition(".")
-    made = results()
-    config = {table: {name: base}}
-    return replace(made, name=name, config=config, groups={f"refine.{key}": data})
+    if isinstance(base, str):
+        data[key].attrs["factor_of"] = base
+    *tables, name = key.split(".")
+    config = {name: base}
+    for table in reversed(tables):
+        config = {table: config}
+    return replace(results(), name=name, config=config, groups={f"refine.{key}": data})
 
 
 def test_the_references_own_error_is_the_sum_of_what_is_refined():
     mesh = companion("solid.mesh_size", [0.0028, 0.002, 0.0014], [0.03, 0.01, 0.0], 0.002)
     penalty = companion("solid.penalty", [1e16, 1e17], [0.002, 0.0], 1e16)
     found = trust_map(results([mesh, penalty]))
-    # 1.2 % at 20 mm, three times that at 1 m; between them over the logarithm
-    middle = 1.2 * (1 + 2 * np.log(0.1 / 0.02) / np.log(1.0 / 0.02))
+    # 1.2 % at 20 mm, three times that at 1 m; between them a power of the wavelength
+    middle = 1.2 * 3.0 ** (np.log(0.1 / 0.02) / np.log(1.0 / 0.02))
     for k in range(2):
         assert found.own.values[k] == pytest.approx([1.2, middle, 3.6], rel=1e-12)
     assert found.refined == ("mesh size", "penalty")
+
+
+def test_factors_of_the_journeys_step_are_refined_about_one():
+    step = companion("runs.surface.time_step", [1.4, 1.0, 0.5], [0.02, 0.005, 0.0], "journey")
+    found = trust_map(results([step]))
+    assert found.own.values[0, [0, -1]] == pytest.approx([0.5, 1.5], rel=1e-12)
+    assert found.refined == ("time step",)
+
+
+def test_the_companion_refines_all_that_the_reference_is_made_of():
+    designs = load_study("trust_reference").designs
+    refined = {d.refined for d in designs}
+    assert refined == {
+        "solid.mesh_size", "solid.penalty", "solid.interface_modes", "solid.wheel_frequency",
+        "runs.modal_surface.time_step",
+    }  # fmt: skip
+    (step,) = [d.series[d.refined] for d in designs if d.refined.startswith("runs")]
+    assert step.factor_of == "journey" and 1.0 in step.coordinates
 
 
 def test_the_map_is_drawn_and_says_what_is_in_it():

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from contactstudy.exceptions import InputError
 from contactstudy.figures.ladder import ladder
 from contactstudy.figures.stiffness import Curve
 from contactstudy.solvers.journey import Journey
@@ -103,6 +104,19 @@ def test_a_study_over_a_sinusoid_has_the_journey_that_fits():
     assert journey.time_step == pytest.approx(0.1 / 40 / 100.0, rel=1e-12)
     given = base_of(load_study("trust_reference", values | {"journey.time_step": "10 us"})).journey
     assert given.time_step == 1e-5
+
+
+def test_a_run_may_have_a_multiple_of_the_journeys_time_step():
+    values = {"irregularity.wavelength": "0.1 m", "journey.speed": "100 m/s"}
+    half = values | {"runs.modal_surface.time_step": "0.5 x journey"}
+    found = [base_of(load_study("trust_reference", v)) for v in (values, half)]
+    run, journeys = "modal_surface", [s.journey.time_step for s in found]
+    assert journeys[0] == journeys[1] == found[0].time_step(run)
+    assert found[1].time_step(run) == pytest.approx(0.5 * journeys[0], rel=1e-15)
+    assert found[1].config()["runs"][run]["time_step"] == found[1].time_step(run)
+    for wrong in ("0 x journey", "2 x tangent", "-1 x journey", "1e9 x journey"):
+        with pytest.raises(InputError, match=r"runs\.modal_surface\.time_step"):
+            load_study("trust_reference", values | {"runs.modal_surface.time_step": wrong})
 
 
 def test_companions_of_a_companion_are_planned_and_theirs_are_not():

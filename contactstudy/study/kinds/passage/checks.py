@@ -50,7 +50,9 @@ def combined(tables: Mapping[str, Any], runs: Mapping[str, Run]) -> list[str]:
     if journey is not None:
         for name, run in runs.items():
             if run.time_step is not None:
-                problems += journey.problems_of_step(f"runs.{name}.time_step", run.time_step)
+                problems += journey.problems_of_step(
+                    f"runs.{name}.time_step", run.step(journey.time_step)
+                )
         if track is not None:
             of_runs = made if runs else None
             problems += journey.problems_on(track, of_runs, naming(Journey, "journey"))

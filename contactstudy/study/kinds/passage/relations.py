@@ -73,13 +73,10 @@ class Related:
         for name, run in self.runs.items():
             own = run.time_step is not None
             key = f"runs.{name}.time_step" if own else "journey.time_step"
-            step = self._step(run)
+            step = run.step(self.journey.time_step)
             if not self.journey.problems_of_step(key, step):
                 found.setdefault(key, (step, {}))[1][name] = run
         return found
-
-    def _step(self, run: Run) -> float:
-        return self.journey.time_step if run.time_step is None else run.time_step
 
     def _waves(self, key: str, step: float, runs: Mapping[str, Run]) -> Iterator[Finding]:
         """A wave takes `STEPS_A_PERIOD` steps to pass; one below two is taken for a longer one."""
@@ -177,7 +174,7 @@ class Related:
         if not run.undamped or run.law == "moving_force":
             return
         found = []
-        step = self._step(run)
+        step = run.step(self.journey.time_step)
         possible = not self.journey.problems_of_step("", step)
         if self.vehicle is not None and possible:
             b = self.vehicle.contact_rows

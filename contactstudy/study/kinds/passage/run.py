@@ -6,18 +6,18 @@ from dataclasses import dataclass
 from typing import Annotated, Any, Literal
 
 from contactstudy.dynamics import integrators
-from contactstudy.solvers.journey import Journey
-from contactstudy.validation import Parameters, Same, When
+from contactstudy.validation import Above, Multiples, Parameters, Unit, When, multiple
 from contactstudy.validation import quantities as q
 
 
 @dataclass(frozen=True)
 class Run(Parameters):
-    """Keys of every run."""
+    """Keys of every run; a time step may be a multiple of the journey's, "0.5 x journey"."""
 
     time_step: Annotated[
-        float | None, Same(Journey, "time_step"), "time step; that of the journey if left out"
-    ] = None
+        float | Literal["journey"] | None, Unit("s"), Above(0), Multiples(("journey",)),
+        "time step; that of the journey if left out",
+    ] = None  # fmt: skip
     irregularity: Annotated[Literal["study", "smooth"], "the study's, or none"] = "study"
     integrator: Annotated[
         Literal["average_acceleration", "generalised_alpha"] | None,
@@ -37,6 +37,12 @@ class Run(Parameters):
     def stepper(self) -> str:
         """Name of the integrator: the one given, or the one that suits the run."""
         return self.integrator or "average_acceleration"
+
+    def step(self, journey: float) -> float:
+        """Time step in s, on a journey whose own is `journey` [s]."""
+        if isinstance(self.time_step, str):
+            return multiple(self.time_step)[0] * journey
+        return journey if self.time_step is None else self.time_step
 
     def method(self) -> integrators.Integrator:
         """The time stepper."""

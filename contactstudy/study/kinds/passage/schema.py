@@ -144,8 +144,7 @@ class Study(study.Study):
 
     def time_step(self, run: str) -> float:
         """Time step of a run in s: its own or the journey's."""
-        own = self.runs[run].time_step
-        return self.journey.time_step if own is None else own
+        return self.runs[run].step(self.journey.time_step)
 
     def config(self) -> dict[str, Any]:
         """All values as nested plain data in SI, without keys that do not apply."""
