@@ -36,7 +36,8 @@ why it is that, or why none can be expected.
 
 ## [quick]
 
-`"TABLE.KEY" = VALUE` takes its place with `--quick`, of a varied key its series.
+`"TABLE.KEY" = VALUE` takes its place with `--quick`, of a varied key its series. Where a varied key
+also has another value by itself, `"sweep.TABLE.KEY"` or `"refine.TABLE.KEY"` gives the series.
 """
 
 

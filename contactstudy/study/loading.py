@@ -119,7 +119,7 @@ def _with_axes(
     quickly = apply_quick(axes if quick else deepcopy(axes), axes.pop("quick", {}))
     fixed = (quickly if quick else {}) | given
     for name in ("sweep", "refine"):
-        axes[name] = without_keys(axes.get(name, {}), fixed.keys() | sweep.keys())
+        axes[name] = without_keys(axes.get(name, {}), given.keys() | sweep.keys())
     axes["sweep"] |= sweep
     source = Source(kind, path, deepcopy(data), fixed, None if main is None else base_of(main))
     designs, keep, wrong = read_designs(data | axes, kind, path.parent)

@@ -33,13 +33,18 @@ def find_parameter(key: str, kind: Kind, data: Mapping[str, Any]) -> Parameter |
 
 
 def apply_quick(data: dict[str, Any], quick: Mapping[str, Any]) -> dict[str, Any]:
-    """Enter what ``[quick]`` says of axes, in place; the other keys, of the study itself."""
+    """Enter what ``[quick]`` says of axes, in place; the other keys, of the study itself.
+
+    A varied key is the study's own where the table also has a series for it, as "refine.KEY".
+    """
     own = {}
     for key, value in quick.items():
         table, _, rest = key.partition(".")
         if table in TABLES[:2] and rest:
             data.setdefault(table, {})[rest] = value
-        elif holders := [t for t in TABLES[:2] if key in (data.get(t) or {})]:
+        elif (holders := [t for t in TABLES[:2] if key in (data.get(t) or {})]) and not any(
+            f"{holder}.{key}" in quick for holder in holders
+        ):
             for holder in holders:
                 data[holder][key] = value
         else:

@@ -203,6 +203,12 @@ def test_quick_values(law):
         load_study(law(text.replace("scale", "scales")))
     named = law(text.replace('[quick]\n"law.x" = [1, 2]', '[quick]\n"sweep.law.x" = [1, 2, 3]'))
     assert len(load_study(named, quick=True).variants) == 3
+    # a refined key about which all others are refined has a value of its own beside its series
+    text = '[refine]\n"law.x" = [4, 2, 1]\n[quick]\n"law.x" = 3\n"refine.law.x" = [8, 6, 4]\n'
+    both = load_study(law(text), quick=True)
+    assert both.study.law.x == 3.0 and load_study(law(text)).study.law.x != 3.0
+    assert [v.study.law.x for v in both.variants.values()] == [8.0, 6.0, 4.0]
+    assert not hasattr(load_study(law(text), {"law.x": 5.0}, quick=True), "designs")
 
 
 def test_all_that_is_wrong_is_said_at_once(law):
@@ -225,7 +231,8 @@ def test_all_that_is_wrong_is_said_at_once(law):
         ('[sweep]\n"law.x" = "uniform 1 m to 2 m"\n', 'drawn only in [sweep] with combine = "sob'),
         ('[sweep]\n"law.x" = ["1e x tangent"]\n', "unknown unit 'e x tangent'"),
         ('[refine]\n"law.seed" = [4, 2, 1]\n', "coarse to fine, that is increasing"),
-        ('[refine]\n"law.x" = [4, 2, 3]\n', "must be 3 or more numbers, coarse to fine"),
+        ('[refine]\n"law.scale" = [2, 1, 0]\n', "3 or more numbers above 0"),
+        ('[refine]\n"law.x" = [4, 2, 3]\n', "must be 3 or more numbers above 0, coarse to fine"),
     ],
 )
 def test_series_that_mean_something_else(law, axes, message):
