@@ -21,10 +21,9 @@ from contactstudy.compiled import compiled, compiled_in_any_order
 from contactstudy.contact.point_gaps import PointContacts
 from contactstudy.dynamics.banded import Factor
 from contactstudy.dynamics.columns import Columns, LocalColumns
-from contactstudy.dynamics.dampers import product
+from contactstudy.dynamics.dampers import lessen, product
 from contactstudy.dynamics.rows import add_rows, row_values
 from contactstudy.dynamics.stepper import ContactStep
-from contactstudy.dynamics.windows import Windows
 from contactstudy.exceptions import NumericalError
 
 FEWEST = 12
@@ -63,16 +62,10 @@ class AttachedMany:
     def _compliance(self, step: int, dofs: IntArray, weights: Array) -> Array:
         if not self.local:
             return self._scaled(step, self._solved(step, dofs, weights))
-        return self._scaled(step, self._overlaps(self._pieces(dofs, weights))[0])
-
-    def _overlaps(self, pieces: Columns) -> tuple[Array, Array | None]:
-        """B S^-1 B^T, and H Y^T Z (r, nc) where there are dampers over whole decks."""
-        W, spread = overlaps(pieces), self._factor.spread
-        if spread is None:
-            return W, None
-        own = shares(pieces, spread.rows)
-        taken = spread.core @ own
-        return W - own.T @ taken, taken
+        W = overlaps(self._pieces(dofs, weights))
+        if (spread := self._factor.spread) is not None:
+            lessen(spread.moved, spread.core, dofs, weights, W)
+        return self._scaled(step, W)
 
     def _scaled(self, step: int, W: Array) -> Array:
         W = self._scale * W
@@ -89,15 +82,20 @@ class AttachedMany:
         dofs, weights = gaps.rows(step)
         pieces, local = self._pieces(dofs, weights), gaps.compliance[step]
         y = half[len(half) - self._padded :]
-        (W, taken), found = self._overlaps(pieces), products(pieces, y)
-        if taken is not None and self._factor.spread is not None:
-            found -= product(self._factor.spread.rows, y) @ taken
+        found, W, spread = products(pieces, y), overlaps(pieces), self._factor.spread
+        if spread is not None:
+            own, taken = lessen(spread.moved, spread.core, dofs, weights, W)
+            seen = product(spread.rows, y)
+            found -= taken @ seen
         free_gap = row_values(dofs, weights, u_known) + of_a * found
         W = self._scaled(step, W)
         force = coupling.forces(step, W, free_gap - gaps.irregularity[step])
         load, increment = np.zeros_like(u_known), np.zeros_like(half)
         add_rows(dofs, weights, force, load)
-        add_pieces(pieces, self._scale / of_a * force, increment[len(half) - self._padded :])
+        change, pushed = increment[len(half) - self._padded :], self._scale / of_a * force
+        add_pieces(pieces, pushed, change)
+        if spread is not None:
+            spread.take(change, spread.core @ (seen + pushed @ own))
         return ContactStep(
             load, increment, {"contact_force": force, "rail_residual": -local * force}
         )
@@ -217,28 +215,6 @@ def products(pieces: Columns, y: Array) -> Array:
         for k in range(len(own)):
             total += own[k] * there[k]
         found[piece % m] += total
-    return found
-
-
-@compiled_in_any_order
-def shares(pieces: Columns, rows: Windows) -> Array:
-    """Y^T Z (r, m) for rows Y^T."""
-    low, wide, at, values = pieces
-    first, width, begin, own = rows
-    m = len(low) // 2
-    found = np.zeros((len(first), m))
-    for row in range(len(first)):
-        for piece in range(2 * m):
-            start = max(first[row], low[piece])
-            stop = min(first[row] + width[row], low[piece] + wide[piece])
-            if stop <= start:
-                continue
-            one = own[begin[row] + start - first[row] : begin[row] + stop - first[row]]
-            other = values[at[piece] + start - low[piece] : at[piece] + stop - low[piece]]
-            total = 0.0
-            for k in range(stop - start):
-                total += one[k] * other[k]
-            found[row, piece % m] += total
     return found
 
 

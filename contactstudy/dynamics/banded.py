@@ -72,8 +72,8 @@ class Factor:
     """Cholesky factor L L^T of a sparse, symmetric, positive definite, narrow-banded matrix.
 
     Only the lower half of the matrix (n, n) is read. With `spread`, rows R (r, n), solutions are
-    those of the matrix + R^T R: y of `forward` is L^-1 b all the same, and `backward` does the rest
-    (`dynamics.dampers`).
+    those of the matrix + R^T R: between `forward` and `backward`, which know L only, stands what
+    `dynamics.dampers` tells.
 
     Raises
     ------
@@ -95,13 +95,15 @@ class Factor:
                 f"the system matrix ({self.n} dofs) is not positive definite: {error}."
                 " Something is not held, or a stiffness or mass is negative or not a number"
             ) from error
-        self.spread = None if spread is None else SpreadDampers(self._half_solved(spread))
+        self.spread = None if spread is None else self._spread(spread)
 
-    def _half_solved(self, rows: sp.csr_array) -> Array:
-        """L^-1 of each of the rows (r, n)."""
-        width = self.blocks.left.shape[2]
-        whole = [self.forward(row)[width : width + self.n] for row in rows.toarray()]
-        return np.array(whole).reshape(-1, self.n)
+    def _spread(self, rows: sp.csr_array) -> SpreadDampers:
+        half = [self.forward(row) for row in rows.toarray()]
+        before = self.blocks.left.shape[2]
+        return SpreadDampers(
+            np.array([y[before : before + self.n] for y in half]).reshape(-1, self.n),
+            np.array([self.backward(y.copy()) for y in half]).reshape(-1, self.n),
+        )
 
     @cached_property
     def blocks(self) -> "Blocks":
@@ -136,17 +138,18 @@ class Factor:
         return y
 
     def backward(self, y: Array) -> Array:
-        """x (n,) of L^T x = y, which is overwritten; `spread` takes its part of y first."""
+        """x (n,) of L^T x = y, which is overwritten."""
         n_blocks, _, width = self.blocks.left.shape
-        if self.spread is not None:
-            self.spread.settle(y[width:])
         _backward(self.blocks, y, 0, n_blocks)
         return y[width : width + self.n]
 
     def solve(self, b: Array) -> Array:
         """Solve for one or several right-hand sides, (n,) or (n, k); b is left as it is."""
         if b.ndim == 1:
-            return self.backward(self.forward(b))
+            y = self.forward(b)
+            if self.spread is not None:
+                self.spread.settle(y[self.blocks.left.shape[2] :])
+            return self.backward(y)
         if self.spread is not None:
             return np.array([self.solve(column) for column in b.T]).reshape(b.T.shape).T
         blocks = self.blocks

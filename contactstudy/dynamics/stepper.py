@@ -21,7 +21,6 @@ import numpy as np
 
 from contactstudy.arrays import Array
 from contactstudy.dynamics.banded import Factor, LinearSystem
-from contactstudy.dynamics.dampers import add_transposed, product
 from contactstudy.dynamics.integrators import (
     Integrator,
     average_acceleration,
@@ -191,7 +190,7 @@ def march(
         contact_state = start.contact.state if start.contact else coupling.start()
     half_way = attached.half_way if isinstance(attached, HalfWay) and attached.local else None
     mass, damping, stiffness = map(windows, (system.mass, system.damping, system.stiffness))
-    dampers = None if system.dampers is None else windows(system.dampers)
+    G = system.dampers
     load_at = external if callable(external) else lambda step: external
     u, v, a, load = start.u, start.v, start.a, start.load
     for step in range(1, steps.count + 1):
@@ -204,8 +203,8 @@ def march(
             subtract_product(mass, am * a, rhs)
         v_mean = (1.0 - af) * v_known + af * v
         subtract_product(damping, v_mean, rhs)
-        if dampers is not None:
-            add_transposed(dampers, -product(dampers, v_mean), rhs)
+        if G is not None:
+            rhs -= (G @ v_mean) @ G
         subtract_product(stiffness, (1.0 - af) * u_known + af * u, rhs)
         contact, load = None, ext
         if half_way is not None:
