@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactstudy.arrays import Array
-from contactstudy.irregularity.estimate import third_octave_levels
+from contactstudy.irregularity.estimate import nominal_centre
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -18,17 +18,18 @@ REACH = 10.0
 """m: a train passes a place from where its first wheel is as near, until its last one is."""
 STEPS_A_PERIOD = 10
 """Fewest time steps of a period: average acceleration makes it (2 pi/n)^2/12 = 3 % too long."""
-_FEWEST = 8  # samples of a spectral estimate
+_FEWEST = 8  # samples of a passage
+_SMALLEST = 1e-30  # (m/s)^2: of a place that nothing moves
 _NOTE = f"level re {1e9 * REFERENCE:g} nm/s, wheels within {REACH:g} m"
 
 
 def velocity_levels(data: xr.Dataset, positions: Array) -> xr.Dataset:
     """Levels of every velocity of a run (place, time) by bands.
 
-    Of each place the velocity while the train, its wheels at X `positions` (n_times, n_wheels),
-    passes it, less its mean, as `third_octave_levels` takes it: in one segment, in bands up to
-    `STEPS_A_PERIOD` time steps a period. "deck_velocity" (station, time) becomes
-    "deck_velocity_level" (station, band) [dB]; NaN where the train does not pass.
+    Of each place the mean square of the velocity behind ideal filters while the train, its wheels
+    at X `positions` (n_times, n_wheels), passes it, in bands up to `STEPS_A_PERIOD` time steps a
+    period. "deck_velocity" (station, time) becomes "deck_velocity_level" (station, band) [dB]; NaN
+    where the train does not pass.
     """
     import xarray as xr
 
@@ -56,13 +57,37 @@ def passing(positions: Array, x: float) -> slice:
 
 def _levels(velocity: xr.DataArray, positions: Array, step: float) -> list[dict[float, float]]:
     """Of each place nominal centre [Hz] -> level [dB]."""
-    highest, rows = 1.0 / (STEPS_A_PERIOD * step), list[dict[float, float]]()
+    rows = list[dict[float, float]]()
     for x, values in zip(velocity[velocity.dims[0]].values, velocity.values, strict=True):
-        part = values[passing(positions, x)]
-        if len(part) < _FEWEST or not np.isfinite(part).all():
+        part = passing(positions, x)
+        if part.stop - (part.start or 0) < _FEWEST or not np.isfinite(values).all():
             rows.append({})
             continue
-        lowest = min(1.0 / (len(part) * step), highest)
-        levels = third_octave_levels(part, step, REFERENCE, band=(lowest, highest))
-        rows.append(dict(zip(levels.nominal.tolist(), levels.level.tolist(), strict=True)))
+        centre, mean_square = third_octaves_of_part(values, part, step)
+        level = 10.0 * np.log10(np.maximum(mean_square, _SMALLEST) / REFERENCE**2)
+        rows.append(dict(zip(nominal_centre(centre).tolist(), level.tolist(), strict=True)))
     return rows
+
+
+def third_octaves_of_part(values: Array, part: slice, step: float) -> tuple[Array, Array]:
+    """Centres [Hz], and the mean square over a part of a signal (n,) behind a filter of each band.
+
+    The filters are ideal, and see the whole signal: cut to the part, a vibration that goes on
+    there would have lines in all bands, and a window that hides the cut would hide how the train
+    comes and goes. Behind the part the signal fades away to the record's end. Bands are at least
+    as wide as the inverse of the part's duration.
+    """
+    n, left = len(values), len(values) - part.stop
+    faded = np.array(values, dtype=float)
+    faded[part.stop :] *= np.cos(0.5 * np.pi * np.arange(1, left + 1) / max(left, 1)) ** 2
+    spectrum, frequency = np.fft.rfft(faded, 2 * n), np.fft.rfftfreq(2 * n, step)
+    line, highest = 1.0 / ((part.stop - part.start) * step), 1.0 / (STEPS_A_PERIOD * step)
+    k = np.arange(round(10.0 * np.log10(line)), round(10.0 * np.log10(highest)) + 1)
+    centre = 10.0 ** (k / 10.0)
+    lower, upper = centre * 10.0**-0.05, centre * 10.0**0.05
+    kept = (upper - lower >= line) & (centre <= highest * 1.01)
+    found = list[float]()
+    for low, high in zip(lower[kept], upper[kept], strict=True):
+        band = np.where((frequency >= low) & (frequency < high), spectrum, 0.0)
+        found.append(float(np.mean(np.fft.irfft(band, 2 * n)[part] ** 2)))
+    return centre[kept], np.array(found)
