@@ -1,7 +1,7 @@
 """A measured record beside computed signals: laid over each other, and how they differ.
 
 Channels are rows of (c, n). What the two clocks differ by, and a scale where it is unknown, is all
-that is fitted, one value for all channels.
+that is fitted, one value for all channels; of each channel its zero where that is unknown too.
 """
 
 from __future__ import annotations
@@ -22,10 +22,14 @@ _SHARE = 0.5  # of the shorter of two records, that must lie over the other
 
 @dataclass(frozen=True)
 class Alignment:
-    """Record time plus `shift` [s] is the run's; `scale` times the computed is the measured."""
+    """Record time plus `shift` [s] is the run's; `scale` times the computed is the measured.
+
+    `zero` (c,) is what the channels read without load, and is taken off them; () where they read 0.
+    """
 
     shift: float
     scale: float
+    zero: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -42,12 +46,14 @@ def aligned(
     measured: tuple[Array, Array],
     shift: float | None = None,
     scale: float | None = None,
+    zero: bool = False,
 ) -> Alignment:
     """Shift and scale that lay a record over computed signals; what is given is kept.
 
     Both are times (n,) that increase [s] and channels (c, n). The shift is that of the largest
     correlation coefficient over the common time, all channels taken together, of all shifts at
-    which at least half of the shorter one is covered. The scale is that of least squares there.
+    which at least half of the shorter one is covered. The scale is that of least squares there,
+    with `zero` together with a constant of each channel.
 
     Raises
     ------
@@ -60,15 +66,18 @@ def aligned(
     energy = float(np.sum(over.computed**2))
     if not energy > 0.0 or not np.any(over.measured):
         raise InputError("the computed or the measured signals are zero over the common time")
+    middle = [rows.mean(axis=1, keepdims=True) * zero for rows in (over.computed, over.measured)]
     if scale is None:
-        scale = float(np.sum(over.computed * over.measured)) / energy
-    return Alignment(shift, scale)
+        a, b = over.computed - middle[0], over.measured - middle[1]
+        scale = float(np.sum(a * b)) / float(np.sum(a**2))
+    left = (middle[1] - scale * middle[0])[:, 0]
+    return Alignment(shift, scale, tuple(left.tolist()) if zero else ())
 
 
 def overlaid(
     computed: tuple[Array, Array], measured: tuple[Array, Array], found: Alignment
 ) -> Overlay:
-    """Both at the record's samples within the run's time, the computed ones scaled.
+    """Both at the record's samples within the run's time, the computed scaled, without zeros.
 
     Raises
     ------
@@ -85,7 +94,8 @@ def overlaid(
         )
     at = moved[inside]
     resampled = np.array([np.interp(at, t, row) for row in a])
-    return Overlay(at, found.scale * resampled, b[:, inside])
+    zero = np.array(found.zero or [0.0])[:, None]
+    return Overlay(at, found.scale * resampled, b[:, inside] - zero)
 
 
 @dataclass(frozen=True)

@@ -51,7 +51,9 @@ def _draw(results: StudyResults, record: xr.Dataset, found: dict[str, dict[str, 
         channel = record[name]
         unit, factor = _SHOWN.get(channel.attrs["units"], (channel.attrs["units"], 1.0))
         time = record["record_time"].values + found[first]["shift"]
-        axes.plot(time, factor * channel.values, color=GREY, lw=0.9, label="measured")
+        # without what the first run's fit takes for the gauge's zero
+        loaded = channel.values - found[first]["channels"][name].get("zero", 0.0)
+        axes.plot(time, factor * loaded, color=GREY, lw=0.9, label="measured")
         for run, one in found.items():
             data = results.runs[run]
             values = at_station(data, channel.attrs["signal"], channel.attrs.get("at"))
@@ -93,12 +95,23 @@ def _caption(results: StudyResults, record: xr.Dataset, found: dict[str, dict[st
         )
         if results.config.get(GROUP, {}).get("scale") == "fitted":
             text += f", scale {number(one['scale'], 4)}"
+        if results.config.get(GROUP, {}).get("zero") == "fitted":
+            text += f", zeros {_zeros(record, one)}"
         told.append(f"{text}, record shifted by {number(one['shift'], 4)} s")
     places = "; ".join(f"{name}: {channel.attrs['label']}" for name, channel in record.items())
     return (
         f"Measured record (grey) and computed signals ({places}). {'. '.join(told)}. "
         f"Shift: {results.metrics[GROUP]['method']}."
     )
+
+
+def _zeros(record: xr.Dataset, one: dict[str, Any]) -> str:
+    """Of each channel what was taken off it."""
+    told = []
+    for name, channel in one["channels"].items():
+        unit, factor = _SHOWN.get(si := record[name].attrs["units"], (si, 1.0))
+        told.append(f"{name} {number(factor * channel['zero'], 3)} {unit}")
+    return ", ".join(told)
 
 
 def _range(values: list[float], digits: int = 3) -> str:

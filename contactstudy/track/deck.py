@@ -118,7 +118,7 @@ class GivenDeck(DeckSection):
     ] = None  # fmt: skip
     mass_per_length: Annotated[
         q.MassPerLength, Usual(100.0, 5e5), Key("deck_mass_per_length"),
-        "of the deck with all that is fixed to it",
+        "of the deck with all that is fixed to it, but for the rails and sleepers of the track",
     ] = 34e3  # fmt: skip
     poisson_ratio: Annotated[q.PoissonRatio, Key("deck_poisson_ratio"), "of the deck"] = 0.2
     damping_ratio: Annotated[

@@ -203,6 +203,16 @@ class Track(Parameters):
         return problems
 
     @property
+    def mass_on_structure(self) -> float:
+        """What both rails, sleepers and a slab add to the mass of a deck [kg/m]."""
+        half = self.rail.mass_per_length
+        if isinstance(self.support, DiscreteSupports):
+            half += self.support.sleeper_mass / self.support.spacing
+            if isinstance(self.support.layer, Slab):
+                half += self.support.layer.mass_per_length
+        return 2.0 * half
+
+    @property
     def n_bays(self) -> int:
         """Number of bays; without discrete supports a bay is about `NOMINAL_BAY` long."""
         bay = NOMINAL_BAY

@@ -40,6 +40,23 @@ def test_noise_moves_them_little():
     assert found.scale == pytest.approx(2.5, rel=0.02)
 
 
+def test_zeros_of_gauges_are_found_with_the_scale():
+    computed, (t, record) = pair(0.4)
+    zeros = np.array([1.5, -0.8])
+    off = (t, record + zeros[:, None])
+    found = aligned(computed, off, zero=True)
+    assert found.shift == pytest.approx(0.4, abs=1e-3)
+    assert found.scale == pytest.approx(2.5, rel=1e-3)
+    np.testing.assert_allclose(found.zero, zeros, atol=2e-3)
+    assert agreement(overlaid(computed, off, found), 1).normalised_error < 5e-3
+    # a scale that is given is kept: the zero is then what is left in the mean
+    given = aligned(computed, off, shift=0.4, scale=2.5, zero=True)
+    np.testing.assert_allclose(given.zero, zeros, atol=2e-3)
+    # asked for nothing, nothing is taken off, and the scale suffers
+    assert aligned(computed, off).zero == ()
+    assert abs(aligned(computed, off).scale / 2.5 - 1.0) > 0.05
+
+
 def test_given_shift_and_scale_are_kept():
     computed, measured = pair(0.4)
     found = aligned(computed, measured, shift=0.41, scale=2.0)

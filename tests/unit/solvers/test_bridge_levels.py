@@ -69,7 +69,7 @@ def test_the_bands_together_have_the_mean_square_of_the_passage(middle):
 
 
 def test_levels_are_those_of_an_instruments_filters():
-    """Third-octave filters of IEC 61260 (Butterworth, order three) over a vibration that goes on."""
+    """Filters of IEC 61260 (Butterworth, order three) over a vibration that goes on."""
     t = STEP * np.arange(8000)
     ringing = np.exp(-0.3 * (t - 3.0)) * np.sin(2 * np.pi * 5.0 * (t - 3.0)) * (t > 3.0)
     values = 1e-2 * ringing + 1e-5 * burst(t, 40.0, 4.5)

@@ -194,7 +194,10 @@ def test_the_shipped_study_is_forecast():
     made = load_study("train_bridge")
     assert len(made.track.structure.spans) == 10
     assert made.runs["backward"].travel == "backward"
-    assert any("static wheel load" in str(one) for one in needs(made, [], None))
+    told = [str(one) for one in needs(made, [], None)]
+    assert any("static wheel load" in one for one in told)
+    # 5.11 Hz of the box alone; sqrt(34000/34538.8) of it with two rails and their sleepers
+    assert any("at 5.11 Hz, with rails and sleepers (539 kg/m) at 5.07 Hz" in one for one in told)
 
 
 def test_a_wheel_on_a_bridge_feels_the_mean_over_its_patch():

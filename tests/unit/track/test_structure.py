@@ -397,3 +397,16 @@ def test_what_is_impossible_is_refused():
     track = Track(structure=Bridge(spans=("3 x 20 m", "7 m")))
     assert track.structure.spans == (20.0, 20.0, 20.0, 7.0)
     assert replace(track, rail=track.rail).length == track.length == 167.0
+
+
+@pytest.mark.parametrize("layer", ["ballast", "slab"])
+def test_the_track_weighs_on_a_decks_first_frequency(layer):
+    """Against the whole structure's lowest frequency; its rails also stiffen it a little."""
+    support = DiscreteSupports(layer=Slab() if layer == "slab" else Ballast())
+    track = on_bridge(support, spans=(16.0,), approach_before=12.0, approach_behind=12.0, **STIFF)
+    made, deck = StructureTrack(track), track.structure.deck
+    squared = spla.eigsh(made.stiffness.tocsc(), 1, made.mass.tocsc(), sigma=0.0)[0][0]
+    share = deck.mass_per_length / (deck.mass_per_length + track.mass_on_structure)
+    alone = deck.frequency(16.0)
+    assert np.sqrt(squared) / (2 * np.pi) == pytest.approx(alone * np.sqrt(share), rel=4e-3)
+    assert share < 0.99

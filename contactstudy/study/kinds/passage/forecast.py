@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
@@ -139,6 +140,7 @@ def needs(study: Study, companions: Sequence[Any], reporter: Reporter) -> list[s
     """
     studies = [study, *(c for c in companions if isinstance(c, Study))]
     found: list[str | Table] = [_contact(study)] if study.runs else []
+    found += _deck(study)
     rough = study.irregularity
     if rough.generated and (told := deviations(rough, irregularity_of(study))):
         found.append(f"standard deviation of the irregularity: {told}")
@@ -176,6 +178,20 @@ def _contact(study: Study) -> str:
         f"{text}Hertz: approach {hertz.approach * 1e6:.1f} µm, "
         f"tangent stiffness {hertz.tangent_stiffness / 1e9:.3f} GN/m"
     )
+
+
+def _deck(study: Study) -> list[str]:
+    """First bending of the longest span, for a look at stiffness and mass of the deck."""
+    bridge = study.track.structure
+    if bridge is None:
+        return []
+    span, mass, more = max(bridge.spans), bridge.deck.mass_per_length, study.track.mass_on_structure
+    alone = bridge.deck.frequency(span)
+    loaded = alone * math.sqrt(mass / (mass + more))
+    return [
+        f"deck: first bending of {span:g} m, simply supported, at {alone:.3g} Hz, "
+        f"with rails and sleepers ({more:.3g} kg/m) at {loaded:.3g} Hz"
+    ]
 
 
 def _made(body: CachedBody[Any]) -> Needs:

@@ -19,7 +19,7 @@ def held_against(table: MeasuredRecord, runs: Mapping[str, xr.Dataset]) -> dict[
     """Of each run the shift and scale of the record, and how each channel agrees.
 
     ``method``; ``runs.<name>``: shift [s], scale, and of ``channels.<column>`` signal, correlation,
-    peak_ratio, normalised_error, sprague_geers {M, P, C}, timing [s].
+    peak_ratio, normalised_error, sprague_geers {M, P, C}, timing [s], and the zero if it is fitted.
     """
     record = table.read()
     made = dict[str, Any]()
@@ -40,6 +40,7 @@ def _of_run(table: MeasuredRecord, record: Record, run: xr.Dataset) -> dict[str,
         measured,
         None if table.shift == "fitted" else float(table.shift),
         None if table.scale == "fitted" else float(table.scale),
+        table.zero == "fitted",
     )
     over = records.overlaid(computed, measured, found)
     channels = {}
@@ -57,6 +58,8 @@ def _of_run(table: MeasuredRecord, record: Record, run: xr.Dataset) -> dict[str,
             },
             "timing": one.timing,
         }
+        if found.zero:
+            channels[channel.column]["zero"] = found.zero[k]
     return {"shift": found.shift, "scale": found.scale, "channels": channels}
 
 

@@ -89,6 +89,10 @@ class MeasuredRecord(Parameters):
     scale: Annotated[
         float | Literal["fitted"], "of the computed signals; fitted by least squares"
     ] = 1.0  # fmt: skip
+    zero: Annotated[
+        Literal["recorded", "fitted"],
+        "what gauges read without load: 0, or of each channel a constant, fitted with the scale",
+    ] = "recorded"
 
     @property
     def used(self) -> bool:

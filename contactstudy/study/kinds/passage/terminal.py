@@ -53,7 +53,9 @@ def _measured(results: StudyResults) -> list[Table]:
         if "failure" in one:
             table.add_row(name, Text(one["failure"]))
             continue
-        told.append(f"{name}: record shifted by {one['shift']:.4f} s, scale {one['scale']:.4g}")
+        text = f"{name}: record shifted by {one['shift']:.4f} s, scale {one['scale']:.4g}"
+        zeros = [f"{k} {c['zero']:.3g}" for k, c in one["channels"].items() if "zero" in c]
+        told.append(text + (f", zeros {', '.join(zeros)}" if zeros else ""))
         for column, channel in one["channels"].items():
             table.add_row(
                 name,
