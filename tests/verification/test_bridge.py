@@ -86,6 +86,7 @@ def test_moving_force_on_a_simply_supported_beam():
         1e-3,
         deck_at(structure, before + 12.5),
     )
+    assert (data.attrs["rail"], data.attrs["elements_per_bay"]) == ("euler", 4)
     time = data.time.values - before / 10.0
     on_bridge = (time > 0.0) & (time < 2.5)
     deepest = np.argmin(np.where(on_bridge, deflection, 0.0))
