@@ -9,7 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from contactstudy.cluster import Cluster
-from contactstudy.exceptions import InputError
+from contactstudy.exceptions import InputError, gathered
 from contactstudy.executor import at_once, check_workers
 from contactstudy.figures import write_figures
 from contactstudy.files import alone, ensure_writable, file_digest, remove_unfinished
@@ -147,9 +147,16 @@ def _planned(study: Study, folder: Path, reporter: Reporter, quick: bool) -> Pla
 
 def _plan(study: Study, folder: Path, quick: bool, last: bool = False) -> Plan:
     """A study with its companions and theirs, each in a folder of its name."""
-    found = load_companions(study, quick, last)
-    own = tuple(_plan(c, folder / c.name, quick, last=True) for c in found)
-    return plan_study(study, folder, own)
+    problems, own, plan = list[str](), list[Plan](), None
+    with gathered(problems):
+        for companion in load_companions(study, quick, last):
+            with gathered(problems):
+                own.append(_plan(companion, folder / companion.name, quick, last=True))
+    with gathered(problems):
+        plan = plan_study(study, folder, tuple(own))
+    if plan is None or problems:
+        raise InputError(dict.fromkeys(problems))
+    return plan
 
 
 def _computed(

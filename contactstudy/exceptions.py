@@ -1,7 +1,8 @@
 """The ways a study can fail: what the user gave, where it is written, what the numbers did."""
 
 import errno
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 
 
 class ContactStudyError(Exception):
@@ -26,6 +27,15 @@ class InputError(ContactStudyError):
             (problems,) if isinstance(problems, str) else tuple(problems)
         )
         super().__init__("\n".join(self.problems))
+
+
+@contextmanager
+def gathered(problems: list[str], prefix: str = "") -> Iterator[None]:
+    """Enter the problems of an `InputError` into a list, so that others are found as well."""
+    try:
+        yield
+    except InputError as error:
+        problems += [f"{prefix}{problem}" for problem in error.problems]
 
 
 class StorageError(ContactStudyError):

@@ -48,7 +48,7 @@ class Trajectory:
         if not x.size:
             return x, x
         low, high = float(x.min()), float(x.max())
-        reach = self._reach(level(np.linspace(low, high, 4 * len(x))))
+        reach = self._reach(level, low, high)
         n, first = int(reach / _STEP), low - reach - _STEP
         count = int((high - first + reach) / _STEP) + 3
         grid = np.linspace(first, first + _STEP * (count - 1), count)
@@ -67,13 +67,20 @@ class Trajectory:
             ahead = np.take_along_axis(tried, best, 1)[:, 0]
         return ahead, np.take_along_axis(found, best, 1)[:, 0]
 
-    def _reach(self, heights: Array) -> float:
-        """No place further away than this [m] can be the highest: x^2/2R < max r - min r."""
-        drop = float(np.ptp(heights))
-        return min(math.sqrt(2.0 * self.radius * drop) + 2.0 * _STEP, 0.5 * self.radius)
+    def _reach(self, level: Level, low: float, high: float) -> float:
+        """No place further away than this [m] can be the highest: x^2/2R < max r - min r.
+
+        Heights are looked for as far as the wheel reaches at all, where the profile is known.
+        """
+        first, last = getattr(level, "domain", (-np.inf, np.inf))
+        first = max(low - self.radius, first)
+        last = max(min(high + self.radius, last), first)
+        drop = float(np.ptp(level(np.linspace(first, last, math.ceil((last - first) / _STEP) + 1))))
+        return min(math.sqrt(2.0 * self.radius * drop) + 2.0 * _STEP, self.radius)
 
     def _drop(self, x: Array) -> Array:
-        # R - sqrt(R^2 - x^2), without cancellation
+        # R - sqrt(R^2 - x^2), without cancellation; beyond the wheel it is as high as its middle
+        x = np.minimum(np.abs(x), self.radius)
         return x**2 / (self.radius + np.sqrt(self.radius**2 - x**2))
 
 

@@ -1,5 +1,6 @@
 """The irregularity of a study: generated from a spectrum, a sinusoid, measured, or none."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -24,6 +25,7 @@ from contactstudy.validation import (
     Unit,
     Usual,
     When,
+    asked,
     by,
     complaint,
 )
@@ -114,26 +116,25 @@ class Irregularity(Parameters):
     rail_defect: Annotated[RailDefect | None, RAIL_DEFECTS] = None
     wheel_defect: Annotated[WheelDefect | None, WHEEL_DEFECTS] = None
 
-    def problems(self, key: Naming) -> list[str]:
+    def problems(self, key: Naming) -> Iterator[str]:
         """Ranges that fall, and a measured level without file or column."""
-        problems = [
-            complaint(key(name), list(pair), f"must increase, lowest first ({unit})")
-            for name, unit in (("band", "rad/m"), ("wavelengths", "m"))
-            if not (pair := getattr(self, name))[0] < pair[1]
-        ]
+        for name, unit in (("band", "rad/m"), ("wavelengths", "m")):
+            yield from asked(self._falls, key(name), name, unit)
         if self.spectrum == "measured" and not self.file:
-            problems.append(
+            yield (
                 f"{key('file')}: is missing; a measured irregularity needs a CSV file "
                 "(--set irregularity.file=PATH)"
             )
         if self.measured_file and self.level_column == self.x_column:
             allowed = f"must be another column than {key('x_column')}"
-            problems.append(complaint(key("level_column"), self.level_column, allowed))
+            yield complaint(key("level_column"), self.level_column, allowed)
         if self.measured_file and not self.level_column:
-            problems.append(
-                f"{key('level_column')}: is missing; name the column of the CSV with the level"
-            )
-        return problems
+            yield f"{key('level_column')}: is missing; name the column of the CSV with the level"
+
+    def _falls(self, key: str, name: str, unit: str) -> Iterator[str]:
+        low, high = getattr(self, name)
+        if not low < high:
+            yield complaint(key, [low, high], f"must increase, lowest first ({unit})")
 
     @property
     def measured_file(self) -> str:

@@ -8,11 +8,11 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from contactstudy.exceptions import InputError
+from contactstudy.exceptions import InputError, gathered
 from contactstudy.files import is_reserved
 from contactstudy.given_files import is_file, toml_file
 from contactstudy.resources import shipped
-from contactstudy.study.axes.keys import TABLES, apply_quick, without_keys
+from contactstudy.study.axes.keys import TABLES, apply_quick, without_keys, wrong_alone
 from contactstudy.study.axes.swept import Source, Swept
 from contactstudy.study.axes.table import read_designs
 from contactstudy.study.kind import Kind, find_kind, kind_of_file
@@ -115,7 +115,9 @@ def _with_axes(
     """
     given, sweep = options
     axes = {name: data.pop(name) for name in TABLES if name in data}
-    raise_if(complaint(n, t, "must be a table") for n, t in axes.items() if not isinstance(t, dict))
+    no_tables = {name: t for name, t in axes.items() if not isinstance(t, dict)}
+    problems += [complaint(name, t, "must be a table") for name, t in no_tables.items()]
+    axes = {name: t for name, t in axes.items() if name not in no_tables}
     quickly = apply_quick(axes if quick else deepcopy(axes), axes.pop("quick", {}))
     fixed = (quickly if quick else {}) | given
     for name in ("sweep", "refine"):
@@ -123,19 +125,32 @@ def _with_axes(
     axes["sweep"] |= sweep
     source = Source(kind, path, deepcopy(data), fixed, None if main is None else base_of(main))
     designs, keep, wrong = read_designs(data | axes, kind, path.parent)
-    try:
+    study, of_file = None, list[str]()
+    with gathered(of_file):
         study = source.load({})
-        if quickly and not quick:
+    if study is None or problems or wrong:  # its axes and companions can only be looked at alone
+        own = [(k, v) for d in designs for k, s in d.series.items() for v in s.values]
+        of_file += wrong_alone("sweep", own, kind, data) + _no_companions(data)
+        of_file += wrong_alone("quick", quickly.items(), kind, data)
+    elif quickly and not quick:
+        with gathered(of_file, "quick: "):
             source.load(quickly | given)
-    except InputError as error:
-        problems = [*problems, *error.problems]
-    raise_if(problems + wrong)
+    raise_if(dict.fromkeys(problems + of_file + wrong))
     if not designs:
         return study
     made = Swept.of(study, designs, source, keep)
     # impossible variants are refused, and histories that none of them has
     raise_if(_unknown_histories(kind, [v.study for v in made.variants.values()], keep))
     return made
+
+
+def _no_companions(data: dict[str, Any]) -> list[str]:
+    """Complaints about companions of a study that cannot be read, which do not exist."""
+    named, problems = data.get("companions"), list[str]()
+    for name in named if isinstance(named, list) else ():
+        with gathered(problems, f"companion {name}: "):
+            find_study(name)
+    return problems
 
 
 def _unknown_histories(kind: Kind, studies: Sequence[Any], keep: Sequence[str]) -> list[str]:
@@ -172,18 +187,18 @@ def load_companions(study: Any, quick: bool = False, last: bool = False) -> list
     InputError
         Listing every problem of every companion.
     """
-    found, problems = [], []
+    found, problems = list[Any](), list[str]()
     files = (*OUTPUTS, *find_kind(study.kind).files)
     # some disks do not tell capitals
     taken = dict.fromkeys(map(str.lower, files), "a file or folder of the results")
     taken[study.name.lower()] = "the study that it accompanies"
     for name in study.companions:
-        try:
+        made = None
+        with gathered(problems, f"companion {name}: "):
             made = load_study(name, main=study, quick=quick)
-            made = replace(made, companions=()) if last else made
-        except InputError as error:
-            problems += [f"companion {name}: {problem}" for problem in error.problems]
+        if made is None:
             continue
+        made = replace(made, companions=()) if last else made
         like = "a device of Windows" if is_reserved(made.name) else taken.get(made.name.lower())
         if like:
             problems.append(

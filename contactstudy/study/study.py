@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar
 
 from contactstudy.validation import Key, Lines, Naming, Parameters, parameters
-from contactstudy.validation.base import check
+from contactstudy.validation.base import check, flat
 
 TEXTS = ("title", "description", "companions")
 """Keys that stand above all tables of a study file."""
@@ -51,4 +51,5 @@ class Study(Parameters):
 
 def read_texts(data: Mapping[str, Any]) -> tuple[dict[str, Any], list[str]]:
     """Texts above the tables of a study file of any kind, and what is wrong with them."""
-    return check(Study, {key: data[key] for key in TEXTS if key in data}, str)
+    values, wrong = check(Study, {key: data[key] for key in TEXTS if key in data}, str)
+    return values, flat(wrong)

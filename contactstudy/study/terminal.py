@@ -25,6 +25,7 @@ from rich.progress import (
 from rich.table import Column, Table
 from rich.text import Text
 
+from contactstudy.exceptions import gathered
 from contactstudy.reporter import Reporter
 from contactstudy.study.axes.swept import Swept
 from contactstudy.study.axes.terminal import check_swept, expected_seconds, summary
@@ -35,6 +36,7 @@ from contactstudy.study.plan import Plan, of_texts, plan_study
 from contactstudy.study.results import StudyResults
 from contactstudy.study.study import Study
 from contactstudy.texts import visible
+from contactstudy.validation import raise_if
 
 _LONG = 12  # values of a list
 
@@ -183,12 +185,19 @@ def check_study(study: Study, reporter: Reporter, quick: bool = False) -> Checke
     Raises
     ------
     InputError
-        When an input file or a companion's study file cannot be used.
+        When input files or companions' study files cannot be used.
     """
-    companions = load_companions(study, quick)
-    theirs = [one for c in companions for one in load_companions(c, quick, last=True)]
-    studies = [base_of(one) for one in (study, *companions, *theirs)]
-    inputs = [find_kind(one.kind).read_inputs(one) for one in studies]
+    problems, studies, inputs = list[str](), [base_of(study)], []
+    with gathered(problems):
+        companions = load_companions(study, quick)
+        studies += map(base_of, companions)
+        for companion in companions:
+            with gathered(problems):
+                studies += map(base_of, load_companions(companion, quick, last=True))
+    for one in studies:
+        with gathered(problems):
+            inputs.append(find_kind(one.kind).read_inputs(one))
+    raise_if(dict.fromkeys(problems))
     needs, plan = [*find_kind(study.kind).check(studies[0], studies[1:], reporter)], None
     if isinstance(study, Swept):
         plan = plan_study(study, Path())

@@ -162,9 +162,8 @@ class Track(Parameters):
         ),
     ] = None
 
-    def __post_init__(self) -> None:
+    def settle(self) -> None:
         """The length of a track on a bridge is the bridge's."""
-        super().__post_init__()
         if self.structure is not None:
             object.__setattr__(self, "length", self.structure.length)
 

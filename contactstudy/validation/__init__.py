@@ -37,7 +37,9 @@ from contactstudy.validation.tables import (
     resolve_paths,
     resolved,
     units,
+    wrong_for_all,
 )
+from contactstudy.validation.unread import UnreadError, asked
 
 __all__ = [
     "Above",
@@ -55,12 +57,14 @@ __all__ = [
     "Same",
     "Table",
     "Unit",
+    "UnreadError",
     "Usual",
     "Variants",
     "When",
     "Written",
     "any_of",
     "as_list",
+    "asked",
     "by",
     "complaint",
     "did_you_mean",
@@ -78,4 +82,5 @@ __all__ = [
     "resolved",
     "units",
     "unknown",
+    "wrong_for_all",
 ]

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import suppress
 from dataclasses import MISSING, dataclass, replace
 from typing import Any, Self, cast
 
-from contactstudy.exceptions import InputError
+from contactstudy.validation.checks import raise_if
 from contactstudy.validation.definition import Parameter, parameter, parameters
 from contactstudy.validation.messages import any_of, complaint
 from contactstudy.validation.metadata import Variants
+from contactstudy.validation.unread import UnreadError, asked
 
 Naming = Callable[[str], str]
 """From a field to how the caller knows it: "track.length" in a file, "Track.length" in Python."""
@@ -35,13 +37,20 @@ class Parameters:
 
     def __post_init__(self) -> None:
         key = self._naming()
-        values, problems = check(type(self), vars(self), key)
+        values, wrong = check(type(self), vars(self), key)
         for name, value in values.items():
             object.__setattr__(self, name, value)
-        if not problems:
-            problems = self._inapplicable(key) + list(self.problems(key))
-        if problems:
-            raise InputError(problems)
+        problems = flat(wrong) or self.broken(key)
+        if not wrong:
+            self.settle()
+        raise_if(problems)
+
+    def broken(self, key: Naming) -> list[str]:
+        """Complaints of all rules over several values, as far as these could be read."""
+        return asked(self._inapplicable, key) + asked(self.problems, key)
+
+    def settle(self) -> None:
+        """Set what follows from the values; also where rules are broken, for those of others."""
 
     def problems(self, key: Naming) -> Iterable[str]:
         """Complaints about values that are fine alone; `key` gives a field's name to the caller."""
@@ -96,14 +105,13 @@ class Parameters:
             return lambda name: f"{type(self).__name__}.{name}"
         return naming(type(self), place.path)
 
-    def _inapplicable(self, key: Naming) -> list[str]:
-        problems = []
+    def _inapplicable(self, key: Naming) -> Iterator[str]:
         for p in parameters(type(self)):
-            if not p.applies(self) and self.given(p.name):
-                when = next(w for w in p.when if getattr(self, w.decider) not in w.values)
-                here = getattr(self, when.decider)
-                problems.append(only_with(key(p.name), when.key, when.values, here))
-        return problems
+            with suppress(UnreadError):
+                if not p.applies(self) and self.given(p.name):
+                    when = next(w for w in p.when if getattr(self, w.decider) not in w.values)
+                    here = getattr(self, when.decider)
+                    yield only_with(key(p.name), when.key, when.values, here)
 
 
 def only_with(key: str, decider: str, values: Iterable[str], here: str) -> str:
@@ -117,13 +125,15 @@ def naming(owner: type, path: str) -> Naming:
     return lambda name: f"{path}.{keys.get(name) or name}"
 
 
-def check(owner: type, given: Mapping[str, Any], key: Naming) -> tuple[dict[str, Any], list[str]]:
-    """Values of the fields of a class as it holds them, and everything that is wrong with them.
+def check(
+    owner: type, given: Mapping[str, Any], key: Naming
+) -> tuple[dict[str, Any], dict[str, list[str]]]:
+    """Values of the fields of a class as it holds them, and what is wrong with fields by name.
 
     Fields that are not `given` are not looked at.
     """
     values: dict[str, Any] = {}
-    problems = []
+    wrong: dict[str, list[str]] = {}
     for p in parameters(owner):
         if p.name not in given:
             continue
@@ -134,11 +144,17 @@ def check(owner: type, given: Mapping[str, Any], key: Naming) -> tuple[dict[str,
         if value is None and p.default is None:
             continue  # its owner fills it in
         if p.variants is not None:
-            problems += _wrong_variant(p, value, key)
-            continue
-        values[p.name], wrong = read_one(p, value, key(p.name))
-        problems += wrong
-    return values, problems
+            problems = _wrong_variant(p, value, key)
+        else:
+            values[p.name], problems = read_one(p, value, key(p.name))
+        if problems:
+            wrong[p.name] = problems
+    return values, wrong
+
+
+def flat(wrong: Mapping[str, Iterable[str]]) -> list[str]:
+    """Complaints of all fields."""
+    return [problem for problems in wrong.values() for problem in problems]
 
 
 def read_one(p: Parameter, value: Any, name: str) -> tuple[Any, list[str]]:

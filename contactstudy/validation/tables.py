@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Collection, Mapping
+from dataclasses import MISSING, dataclass, fields, replace
 from pathlib import Path
 from typing import Any, Literal, cast
 
@@ -13,6 +13,7 @@ from contactstudy.validation.base import (
     Parameters,
     Place,
     check,
+    flat,
     naming,
     of_variant,
     only_with,
@@ -21,6 +22,7 @@ from contactstudy.validation.base import (
 from contactstudy.validation.definition import Parameter, parameters
 from contactstudy.validation.messages import any_of, complaint, did_you_mean, unknown
 from contactstudy.validation.metadata import Variants
+from contactstudy.validation.unread import UnreadError, is_partly, partly
 
 Table = type[Parameters] | Variants
 """What a table is read as: one class, or one of several that a key chooses."""
@@ -74,8 +76,9 @@ def _of_variants(variants: Variants) -> dict[str, Entry]:
 def read(table: Table, data: Any, path: str, **others: Any) -> tuple[Any, list[str]]:
     """Object that a table of a study file describes, and everything that is wrong with it.
 
-    None for the object if a value is wrong. If only rules over several values are broken it is
-    there, to be checked further, and must not be used.
+    With anything wrong the object is there for further rules (`asked`) and must not be used: it
+    raises `UnreadError` when it is asked for a value that is wrong. None where nothing could be
+    read.
 
     Parameters
     ----------
@@ -117,29 +120,31 @@ def _made(
         if not isinstance(name, str) or name not in table.classes:
             hint = did_you_mean(name, table.classes) if isinstance(name, str) else ""
             allowed = f"must be {any_of(table.classes)}{hint}"
-            wrong = [complaint(f"{path}.{table.key}", name, allowed)]
-            return None, wrong + _wrong_for_all(table, data, path)
+            problems = [complaint(f"{path}.{table.key}", name, allowed)]
+            return None, problems + wrong_for_all(table, data, path)
         chosen[table.key] = name
         made = table.classes[name]
         return (None, []) if made is None else _made(made, data, path, chosen, others)
-    own = parameters(table)
+    own, key = parameters(table), naming(table, path)
     given = {p.name: data[p.key] for p in own if p.key in data and p.variants is None}
-    wrong = check(table, given, naming(table, path))[1]
-    wrong += [
-        f"{path}.{p.key}: is missing; must be {p.limits.description()}"
+    wrong = check(table, given, key)[1]
+    wrong |= {
+        p.name: [f"{path}.{p.key}: is missing; must be {p.limits.description()}"]
         for p in own
         if p.key and p.needed and p.name not in given and p.name not in others
-    ]
-    parts, problems, failed = {}, list(wrong), bool(wrong)
+    }
+    problems, parts = flat(wrong), {}
     for p in own:
         if p.variants is not None:
-            parts[p.name], wrong = _made(p.variants, data, path, chosen, {})
-            problems += wrong
-            failed |= bool(wrong) and parts[p.name] is None
-    if failed:
-        return None, problems
+            parts[p.name], found = _made(p.variants, data, path, chosen, {})
+            problems += found
+            if found and parts[p.name] is None:
+                wrong[p.name] = found
+    place = Place(path, frozenset(given))
+    if wrong or any(map(is_partly, parts.values())):
+        return _in_part(table, given | parts | dict(others), place, wrong, problems)
     made = object.__new__(table)
-    object.__setattr__(made, "_place", Place(path, frozenset(given)))
+    object.__setattr__(made, "_place", place)
     try:
         cast(Any, table).__init__(made, **given, **parts, **others)
     except InputError as error:
@@ -147,7 +152,37 @@ def _made(
     return made, problems
 
 
-def _wrong_for_all(table: Variants, data: Mapping[str, Any], path: str) -> list[str]:
+def _in_part(
+    table: type[Parameters],
+    given: Mapping[str, Any],
+    place: Place,
+    wrong: Collection[str],
+    problems: list[str],
+) -> tuple[Any, list[str]]:
+    """Object without the fields that are `wrong`, and the complaints with those of its rules."""
+    key, own = naming(table, place.path), {f.name: f for f in fields(cast(Any, table))}
+    unread = set(wrong) | {name for name, f in own.items() if not f.init}
+    unread |= {
+        p.name for p in parameters(table) if p.by and p.by.decider in unread and p.name not in given
+    }
+    values: dict[str, Any] = {}
+    for name, f in own.items():
+        if name in given:
+            values[name] = given[name]
+        else:
+            values[name] = f.default if f.default_factory is MISSING else f.default_factory()
+    values = {name: value for name, value in values.items() if name not in unread}
+    values |= check(table, values, key)[0]
+    made = partly(table, values | {"_place": place}, unread)
+    problems = problems + made.broken(key)
+    try:
+        made.settle()
+    except UnreadError:
+        return None, problems
+    return made, problems
+
+
+def wrong_for_all(table: Variants, data: Mapping[str, Any], path: str) -> list[str]:
     """Complaints about keys that are wrong whichever class is chosen."""
     problems: list[str] = []
     classes = [entries(made) for made in table.classes.values() if made is not None]

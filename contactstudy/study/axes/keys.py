@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from typing import Any
 
 from contactstudy.study.kind import Kind
-from contactstudy.validation import Parameter, entries, unknown
+from contactstudy.study.study import TEXTS
+from contactstudy.validation import Parameter, Variants, entries, unknown, wrong_for_all
+from contactstudy.validation.base import read_one
 
 TABLES = ("sweep", "refine", "quick")
 """Tables that are not a kind's."""
@@ -50,6 +52,29 @@ def apply_quick(data: dict[str, Any], quick: Mapping[str, Any]) -> dict[str, Any
         else:
             own[key] = value
     return own
+
+
+def wrong_alone(
+    table: str, values: Iterable[tuple[str, Any]], kind: Kind, data: Mapping[str, Any]
+) -> list[str]:
+    """Complaints about keys that a table of axes gives values, each looked at by itself."""
+    problems = dict[str, None]()
+    for key, value in values:
+        if key in TEXTS:
+            continue
+        found = find_parameter(key, kind, data)
+        if isinstance(found, str):
+            problems[f"{table}: {found}"] = None
+            continue
+        path, _, last = key.rpartition(".")
+        first = path.partition(".")[0]
+        model = kind.inner_tables.get(first, kind.tables.get(first))
+        if isinstance(model, Variants):
+            wrong = wrong_for_all(model, {last: value}, path)
+        else:
+            wrong = read_one(found, value, key)[1]
+        problems |= dict.fromkeys(f"{table}: {problem}" for problem in wrong)
+    return list(problems)
 
 
 def without_keys(axes: Mapping[str, Any], keys: Collection[str]) -> dict[str, Any]:

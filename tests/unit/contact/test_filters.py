@@ -51,6 +51,26 @@ def test_wheel_on_a_wave(wavelength, amplitude):
         assert found == pytest.approx(-best.fun, abs=1e-9)
 
 
+@pytest.mark.parametrize("seed", range(8))
+def test_wheel_rests_the_same_whatever_else_is_asked(seed):
+    """Few positions or many: brute force over all that a wheel can reach."""
+    random = np.random.default_rng(seed)
+    k = 2 * np.pi / random.uniform(0.03, 5.0, 6)
+    profile = HarmonicProfile(10 ** random.uniform(-6, -3, 6), k, random.uniform(0, 6, 6))
+    bump = random.uniform(-0.15, 0.15)
+
+    def level(x):
+        return profile(x) + 2e-3 * np.exp(-(((x - bump) / 0.02) ** 2))
+
+    at = random.uniform(-0.1, 0.1, 1 + seed % 3)
+    found = Trajectory(RADIUS)(level, at)
+    ahead = np.linspace(-0.42, 0.42, 168_001)
+    for x, height in zip(at, found, strict=True):
+        best = np.max(level(x + ahead) - (RADIUS - np.sqrt(RADIUS**2 - ahead**2)))
+        assert height == pytest.approx(best, abs=2e-9)
+        assert Trajectory(RADIUS)(level, np.array([x]))[0] == pytest.approx(height, abs=1e-12)
+
+
 def test_smooth_rail_is_left_alone():
     x = np.linspace(0.0, 1.0, 7)
     np.testing.assert_array_equal(Trajectory(RADIUS)(np.zeros_like, x), 0.0)

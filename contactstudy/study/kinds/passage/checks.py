@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Any
 
 from contactstudy.exceptions import InputError
@@ -19,7 +19,7 @@ from contactstudy.study.kinds.passage.scan import ScanFiles
 from contactstudy.study.kinds.passage.solid import Solid
 from contactstudy.study.kinds.passage.wheelset import WheelsetPosition, problems_of
 from contactstudy.track.model import Track
-from contactstudy.validation import complaint, parameters
+from contactstudy.validation import UnreadError, asked, complaint, parameters
 from contactstudy.validation.base import naming
 from contactstudy.vehicle import Vehicle, VehicleTable
 
@@ -27,64 +27,167 @@ _SLACK = 1e-9  # relative, for lengths that were given in decimal
 
 
 def combined(tables: Mapping[str, Any], runs: Mapping[str, Run]) -> list[str]:
-    """Complaints about values that are fine alone; tables that failed are left out."""
-    problems: list[str] = []
-    irregularity: Irregularity | None = tables.get("irregularity")
-    track: Track | None = tables.get("track")
-    journey: Journey | None = tables.get("journey")
-    vehicle: VehicleTable | None = tables.get("vehicle")
-    solid: Solid | None = tables.get("solid")
-    wheelset: WheelsetPosition | None = tables.get("wheelset")
-    scan: ScanFiles | None = tables.get("scan")
-    if journey is not None and journey.start >= journey.end:
-        journey = None  # its own complaint is enough
-    made = None
+    """Complaints about values that are fine alone.
+
+    Tables that failed are left out; what of others could not be read ends only the rules that need
+    it.
+    """
+    known: dict[str, Any] = {key: tables.get(key) for key in _RELATED}
+    known |= {"made": None, "runs": runs}
+    # their own complaints are enough
+    if (journey := known["journey"]) is not None and not asked(_leads, journey):
+        known["journey"] = None
     try:
-        if vehicle is not None:
-            made = vehicle.vehicle() if track is None else vehicle_on(track, vehicle)
+        if known["vehicle"] is not None:
+            known["made"] = _vehicle(**known)
     except InputError:
-        vehicle = None  # complained about
+        known["vehicle"] = None
+    except UnreadError:
+        pass
+    return [problem for rule in _RULES for problem in asked(rule, **known)]
+
+
+def _leads(journey: Journey) -> Iterator[bool]:
+    if journey.start < journey.end:
+        yield True
+
+
+def _vehicle(track: Track | None, vehicle: VehicleTable, **_: Any) -> Vehicle:
+    return vehicle.vehicle() if track is None else vehicle_on(track, vehicle)
+
+
+def _of_runs(
+    track: Track | None,
+    made: Vehicle | None,
+    irregularity: Irregularity | None,
+    runs: Mapping[str, Run],
+    **_: Any,
+) -> Iterator[str]:
     if made is not None and runs:
-        problems += _wheels(made, irregularity, runs)
-        problems += problems_of_runs(track, made, runs, irregularity) if track is not None else ()
-    if journey is not None:
-        for name, run in runs.items():
-            if run.time_step is not None:
-                problems += journey.problems_of_step(
-                    f"runs.{name}.time_step", run.step(journey.time_step)
-                )
-        if track is not None:
-            of_runs = made if runs else None
-            problems += journey.problems_on(track, of_runs, naming(Journey, "journey"))
-        radius = 0.43 if vehicle is None else vehicle.wheel_radius
-        related = Related(journey, track, made, radius, irregularity, runs, {})
-        problems += [finding.text for finding in related.findings() if finding.wrong]
-        if irregularity is not None and runs and vehicle is not None:
-            problems += _defects(irregularity, journey, vehicle.wheel_radius)
-        record: MeasuredRecord | None = tables.get("measured")
-        if record is not None and record.used and runs:
-            problems += record.problems_on(journey, track, made)
-    if solid is None:
-        return problems
-    meshed = any(run.needs_solid for run in runs.values())
+        yield from asked(_wheels, made, irregularity, runs)
+    if track is not None and runs:
+        yield from asked(problems_of_runs, track, made, runs, irregularity)
+
+
+def _of_journey(
+    journey: Journey | None,
+    track: Track | None,
+    made: Vehicle | None,
+    vehicle: VehicleTable | None,
+    irregularity: Irregularity | None,
+    runs: Mapping[str, Run],
+    **_: Any,
+) -> Iterator[str]:
+    if journey is None:
+        return
+    for name, run in runs.items():
+        yield from asked(_step, journey, name, run)
+    if track is not None:
+        yield from asked(
+            journey.problems_on, track, made if runs else None, naming(Journey, "journey")
+        )
+    if irregularity is not None and runs and vehicle is not None:
+        yield from asked(_defects, irregularity, journey, vehicle)
+    radius = 0.43 if vehicle is None else vehicle.wheel_radius
+    related = Related(journey, track, made, radius, irregularity, runs, {})
+    yield from (finding.text for finding in related.findings() if finding.wrong)
+
+
+def _step(journey: Journey, name: str, run: Run) -> list[str]:
+    if run.time_step is None:
+        return []
+    return journey.problems_of_step(f"runs.{name}.time_step", run.step(journey.time_step))
+
+
+def _of_record(
+    measured: MeasuredRecord | None,
+    journey: Journey | None,
+    track: Track | None,
+    made: Vehicle | None,
+    runs: Mapping[str, Run],
+    **_: Any,
+) -> list[str]:
+    if measured is None or journey is None or not measured.used or not runs:
+        return []
+    return measured.problems_on(journey, track, made)
+
+
+def _of_solid(
+    solid: Solid | None,
+    track: Track | None,
+    vehicle: VehicleTable | None,
+    wheelset: WheelsetPosition | None,
+    runs: Mapping[str, Run],
+    **_: Any,
+) -> Iterator[str]:
+    meshed = _meshed(runs)
     points = [run for run in runs.values() if isinstance(run, PointRun)]
-    pressed = [run for run in points if run.presses or run.bay_compliance]
-    if meshed or pressed:
-        if track is not None:
-            more = any(p.patch_of_press or p.bay_compliance or p.law != "linear" for p in pressed)
-            problems += solid.problems_on(track, meshed or more)
-            problems += _unsupported(track, runs)
-        if vehicle is not None:
-            problems += _wheel(solid, vehicle.wheel_radius)
-        if wheelset is not None:
-            problems += _wheelset(solid, wheelset, track, vehicle)
-    if scan is not None and scan.used and solid.half:
-        problems.append('scan: applies only with solid.section = "whole" (here "half")')
-    if irregularity is not None and meshed and solid.half:
-        problems += _mirrored(irregularity)
-    if journey is not None and meshed:
-        problems += _solid_on_journey(solid, journey)
-    return problems
+    pressed = [run for run in points if any(asked(_presses, run))]
+    if solid is None or not (meshed or pressed):
+        return
+    if track is not None:
+        more = any(any(asked(_needs_profile, run)) for run in pressed)
+        yield from asked(solid.problems_on, track, meshed or more)
+        yield from asked(_unsupported, track, runs)
+    if vehicle is not None:
+        yield from asked(_wheel, solid, vehicle)
+    if wheelset is not None:
+        yield from asked(_wheelset, solid, wheelset, track, vehicle)
+
+
+def _of_section(
+    solid: Solid | None,
+    scan: ScanFiles | None,
+    irregularity: Irregularity | None,
+    runs: Mapping[str, Run],
+    **_: Any,
+) -> Iterator[str]:
+    if solid is None or not solid.half:
+        return
+    if scan is not None and scan.used:
+        yield 'scan: applies only with solid.section = "whole" (here "half")'
+    if irregularity is not None and _meshed(runs):
+        yield from _mirrored(irregularity)
+
+
+def _of_fields(
+    solid: Solid | None, journey: Journey | None, runs: Mapping[str, Run], **_: Any
+) -> list[str]:
+    if solid is None or journey is None or not _meshed(runs):
+        return []
+    return _solid_on_journey(solid, journey)
+
+
+def _meshed(runs: Mapping[str, Run]) -> bool:
+    return any(any(asked(_needs_solid, run)) for run in runs.values())
+
+
+def _needs_solid(run: Run) -> Iterator[bool]:
+    yield run.needs_solid
+
+
+def _presses(run: PointRun) -> Iterator[bool]:
+    yield run.bay_compliance
+    yield run.presses
+
+
+def _needs_profile(run: PointRun) -> Iterator[bool]:
+    yield run.law != "linear"
+    yield run.bay_compliance
+    yield run.patch_of_press
+
+
+_RELATED = (
+    "irregularity", "track", "journey", "vehicle", "solid", "wheelset", "scan", "measured",
+)  # fmt: skip
+_RULES: tuple[Callable[..., Iterable[str]], ...] = (
+    _of_runs,
+    _of_journey,
+    _of_record,
+    _of_solid,
+    _of_section,
+    _of_fields,
+)
 
 
 def _wheels(
@@ -123,7 +226,7 @@ def _unsupported(track: Track, runs: Mapping[str, Run]) -> list[str]:
     ]
 
 
-def _defects(irregularity: Irregularity, journey: Journey, radius: float) -> list[str]:
+def _defects(irregularity: Irregularity, journey: Journey, vehicle: VehicleTable) -> list[str]:
     """Defects that lie in the fade-in, where they would be in full, or are never met."""
     rail, wheel = irregularity.rail_defect, irregularity.wheel_defect
     places, problems = dict[str, tuple[float, float]](), list[str]()
@@ -131,7 +234,7 @@ def _defects(irregularity: Irregularity, journey: Journey, radius: float) -> lis
         places["rail_defect_at"] = rail.at, rail.half_length
     try:
         if isinstance(wheel, LocalDefect):
-            places["wheel_defect_at"] = wheel.at, wheel.half_length(radius)
+            places["wheel_defect_at"] = wheel.at, wheel.half_length(vehicle.wheel_radius)
     except InputError as error:
         problems = [f"irregularity.wheel_defect_file: {problem}" for problem in error.problems]
     end = journey.start + journey.fade_in
@@ -161,11 +264,12 @@ def _mirrored(irregularity: Irregularity) -> list[str]:
     ]
 
 
-def _wheel(solid: Solid, radius: float) -> list[str]:
+def _wheel(solid: Solid, vehicle: VehicleTable) -> list[str]:
     try:
         dimensions = wheel_dimensions(solid.wheel_section)
     except InputError as error:
         return [f"solid.wheel_section: {problem}" for problem in error.problems]
+    radius = vehicle.wheel_radius
     if solid.wheel_section in wheel_sections():  # these are stretched to any radius
         try:
             dimensions.with_radius(radius)

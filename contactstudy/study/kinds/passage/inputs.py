@@ -7,6 +7,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from contactstudy.exceptions import InputError
 from contactstudy.given_files import content_digest
 from contactstudy.irregularity.shown import to_dataset
 from contactstudy.profiles.wheel_file import named_file_digest
@@ -24,6 +25,7 @@ from contactstudy.study.kinds.passage.schema import IRREGULARITY, MEASURED, Stud
 from contactstudy.study.kinds.passage.touching import touched_beyond
 from contactstudy.study.kinds.passage.twins import all_pieces, changes, run_of
 from contactstudy.study.kinds.passage.wheelset import PATHS as WHEELSET_PATHS
+from contactstudy.study.kinds.passage.wrong_files import wrong_files
 from contactstudy.validation import multiple
 from contactstudy.vehicle import Bogie, Train
 from contactstudy.vehicle.consist import car_file
@@ -46,8 +48,16 @@ def read_inputs(study: Study) -> Inputs:
     Raises
     ------
     InputError
-        When a file cannot be used.
+        When files cannot be used.
     """
+    try:
+        return _read(study)
+    except InputError as error:
+        more = wrong_files(vars(study), study.runs)
+        raise InputError(dict.fromkeys([*error.problems, *more])) from error
+
+
+def _read(study: Study) -> Inputs:
     described = describe(study)
     config = study.config()
     for key in ("file", "measured_overlay", "wheel_defect_file"):

@@ -9,7 +9,7 @@ from contactstudy.solvers.journey import Journey
 from contactstudy.study.kinds.passage.run import Run
 from contactstudy.study.kinds.passage.runs import PointRun
 from contactstudy.track.model import Track
-from contactstudy.validation import complaint
+from contactstudy.validation import asked, complaint
 from contactstudy.vehicle import Train, Vehicle, VehicleTable
 from contactstudy.vehicle.axles import Axles
 
@@ -38,18 +38,30 @@ def journey_on(track: Track, vehicle: Vehicle, journey: Journey) -> Journey:
 
 
 def problems_of_runs(
-    track: Track, vehicle: Vehicle, runs: Mapping[str, Run], irregularity: Irregularity | None
+    track: Track,
+    vehicle: Vehicle | None,
+    runs: Mapping[str, Run],
+    irregularity: Irregularity | None,
 ) -> Iterator[str]:
-    """Runs and vehicles that are not possible on a bridge."""
-    structure = track.structure
-    if structure is None:
+    """Runs and vehicles that are not possible on a bridge; None for a vehicle that failed."""
+    if track.structure is None:
         for name, run in runs.items():
-            if isinstance(run, PointRun) and run.travel == "backward":
-                yield complaint(
-                    f"runs.{name}.travel", run.travel, 'needs track.structure = "bridge"'
-                )
-        yield from vehicle.problems_on_one_rail()
+            yield from asked(_on_ground, name, run)
+        yield from [] if vehicle is None else vehicle.problems_on_one_rail()
         return
+    if vehicle is not None:
+        yield from asked(_under, track, vehicle)
+    for name, run in runs.items():
+        yield from asked(_on_bridge, track, vehicle, name, run, irregularity)
+
+
+def _on_ground(name: str, run: Run) -> Iterator[str]:
+    if isinstance(run, PointRun) and run.travel == "backward":
+        yield complaint(f"runs.{name}.travel", run.travel, 'needs track.structure = "bridge"')
+
+
+def _under(track: Track, vehicle: Vehicle) -> Iterator[str]:
+    assert track.structure is not None
     planar = planar_on(track, vehicle)
     if not planar and vehicle.planar:
         yield (
@@ -59,28 +71,32 @@ def problems_of_runs(
     if planar and "Y" in vehicle.contact_directions:
         yield 'track.motion = "planar": needs vehicle.model = "planar"'
     if not planar:
-        for name in structure.deck.missing:
+        for name in track.structure.deck.missing:
             yield f"track.deck_{name}: is missing; a run in space needs it"
-    for name, run in runs.items():
-        if not isinstance(run, PointRun) or run.needs_solid:
-            yield f"runs.{name}: needs a meshed rail; the rails of a bridge are beams"
-            continue
-        if run.presses:
-            yield (
-                f"runs.{name}: needs the static press of a meshed rail; the rails of a bridge are "
-                'beams: use k_r in N/m or "hertz_tangent", or law = "hertz" with '
-                'hertz_constant = "closed_form"'
-            )
-        if run.rigid and planar and not vehicle.planar:
-            allowed = "must give way on a planar bridge, where both wheels of a wheelset are one"
-            yield complaint(f"runs.{name}.k_r", run.k_r, allowed)
-        if run.travel == "backward" and irregularity is not None and irregularity.rail_defect:
-            yield f'runs.{name}.travel: must be "forward" with irregularity.rail_defect'
-        for key, holds in {
-            "local_compliance": run.local_compliance,
-            "bay_compliance": run.bay_compliance,
-            "direction": run.direction == "Y",
-        }.items():
-            if holds:
-                allowed = "is not possible on a bridge"
-                yield complaint(f"runs.{name}.{key}", getattr(run, key), allowed)
+
+
+def _on_bridge(
+    track: Track, vehicle: Vehicle | None, name: str, run: Run, irregularity: Irregularity | None
+) -> Iterator[str]:
+    if not isinstance(run, PointRun) or run.needs_solid:
+        yield f"runs.{name}: needs a meshed rail; the rails of a bridge are beams"
+        return
+    if run.presses:
+        yield (
+            f"runs.{name}: needs the static press of a meshed rail; the rails of a bridge are "
+            'beams: use k_r in N/m or "hertz_tangent", or law = "hertz" with '
+            'hertz_constant = "closed_form"'
+        )
+    if vehicle and run.rigid and planar_on(track, vehicle) and not vehicle.planar:
+        allowed = "must give way on a planar bridge, where both wheels of a wheelset are one"
+        yield complaint(f"runs.{name}.k_r", run.k_r, allowed)
+    if run.travel == "backward" and irregularity is not None and irregularity.rail_defect:
+        yield f'runs.{name}.travel: must be "forward" with irregularity.rail_defect'
+    for key, holds in {
+        "local_compliance": run.local_compliance,
+        "bay_compliance": run.bay_compliance,
+        "direction": run.direction == "Y",
+    }.items():
+        if holds:
+            allowed = "is not possible on a bridge"
+            yield complaint(f"runs.{name}.{key}", getattr(run, key), allowed)

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 from contactstudy.exceptions import InputError
 from contactstudy.given_files import is_file
@@ -17,9 +17,20 @@ from contactstudy.study.kinds.passage.schema import (
     wrong_reference,
     wrong_runs,
 )
+from contactstudy.study.kinds.passage.wrong_files import wrong_files
 from contactstudy.study.overrides import Overrides, override
 from contactstudy.study.study import TEXTS, read_texts
-from contactstudy.validation import complaint, did_you_mean, raise_if, read, resolve_paths, unknown
+from contactstudy.track.model import Track
+from contactstudy.validation import (
+    asked,
+    complaint,
+    did_you_mean,
+    entries,
+    read,
+    resolve_paths,
+    unknown,
+    wrong_for_all,
+)
 
 _TOP_LEVEL = (*TEXTS, *SECTIONS, "runs", "compare")
 _COMPARE = ("reference", "smooth", "rungs", "softer")
@@ -64,23 +75,39 @@ def parse_study(
         found += wrong
         if made is not None:
             tables[key] = made
-    if {"track", "solid"} <= tables.keys():
-        solid = tables["solid"]
-        if "solid" not in data or not solid.given("cell_length"):
-            tables["solid"] = solid.fitting(tables["track"])
-    fitting = "journey", "irregularity", "track", "vehicle"
-    if set(fitting) <= tables.keys():
-        try:
-            tables["journey"] = fitted_journey(*(tables[key] for key in fitting))
-        except InputError as error:  # of the others is complained elsewhere
-            own = (p for p in error.problems if p.startswith("Journey."))
-            found += [p.replace("Journey.", "journey.") for p in own]
+    found += asked(_fit, tables, "solid" in data)
     runs, wrong = _runs(data.get("runs", {}))
     texts, wrong_texts = read_texts(data)
-    compare, wrong_compare = _compare(data, list(data["runs"]) if runs else [])
+    compare, wrong_compare = _compare(data)
     found += wrong + combined(tables, runs) + wrong_texts + wrong_compare
-    raise_if(found)
+    if found:
+        raise InputError(dict.fromkeys(found + wrong_files(tables, runs)))
     return Study(name=name, **texts, **tables, runs=runs, **compare)
+
+
+def _fit(tables: dict[str, Any], given: bool) -> Iterator[str]:
+    """Fit solid (`given` or not) and journey to the other tables, in place."""
+    track: Any = tables.get("track")
+    journey, vehicle = tables.pop("journey", None), tables.get("vehicle")
+    irregularity: Any = tables.get("irregularity")
+    if track is None:
+        return  # nobody knows how far the journey goes, nor how long a cell is
+    if "solid" in tables and not (given and tables["solid"].given("cell_length")):
+        yield from asked(_fit_solid, tables, track)
+    on_bridge = track.structure is not None
+    if journey is None or irregularity is None or (on_bridge and vehicle is None):
+        return
+    try:
+        tables["journey"] = fitted_journey(journey, irregularity, track, cast(Any, vehicle))
+    except InputError as error:  # of the others is complained elsewhere
+        tables["journey"] = journey
+        own = (p for p in error.problems if p.startswith("Journey."))
+        yield from (p.replace("Journey.", "journey.") for p in own)
+
+
+def _fit_solid(tables: dict[str, Any], track: Track) -> tuple[()]:
+    tables["solid"] = tables["solid"].fitting(track)
+    return ()
 
 
 def _runs(data: Any) -> tuple[dict[str, Any], list[str]]:
@@ -89,20 +116,25 @@ def _runs(data: Any) -> tuple[dict[str, Any], list[str]]:
     runs, problems = {}, wrong_runs(data)
     for name, table in data.items():
         path = f"runs.{name}"
-        if not isinstance(table, Mapping) or "solver" not in table:
-            hint = did_you_mean(name, [other for other in data if other != name])
-            misspelt = f"; or is the run's name misspelt{hint}" if hint else ""
-            problems.append(f'{path}.solver: is missing; must be "point" or "surface"{misspelt}')
+        if isinstance(table, Mapping) and "solver" in table:
+            run, wrong = read(SOLVERS, table, path)
+            problems += wrong
+            if run is not None:
+                runs[name] = run
             continue
-        run, wrong = read(SOLVERS, table, path)
-        problems += wrong
-        if run is not None:
-            runs[name] = run
+        hint = did_you_mean(name, [other for other in data if other != name])
+        misspelt = f"; or is the run's name misspelt{hint}" if hint else ""
+        problems.append(f'{path}.solver: is missing; must be "point" or "surface"{misspelt}')
+        if isinstance(table, Mapping):
+            known = list(entries(SOLVERS))
+            problems += [unknown(path, key, known) for key in table if key not in known]
+            problems += wrong_for_all(SOLVERS, table, path)
     return runs, problems
 
 
-def _compare(data: Mapping[str, Any], runs: list[str]) -> tuple[dict[str, Any], list[str]]:
-    table = data.get("compare", {})
+def _compare(data: Mapping[str, Any]) -> tuple[dict[str, Any], list[str]]:
+    table, runs = data.get("compare", {}), data.get("runs", {})
+    runs = list(runs) if isinstance(runs, Mapping) else []
     if not isinstance(table, Mapping):
         return {}, [complaint("compare", table, "must be a table")]
     problems = [unknown("compare", key, _COMPARE) for key in table if key not in _COMPARE]

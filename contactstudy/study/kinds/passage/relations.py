@@ -21,7 +21,7 @@ from contactstudy.study.kinds.passage.run import Run
 from contactstudy.study.kinds.passage.runs import PointRun
 from contactstudy.track.beam import BeamTrack
 from contactstudy.track.model import DiscreteSupports, Track
-from contactstudy.validation import complaint
+from contactstudy.validation import asked, complaint
 from contactstudy.vehicle import Vehicle
 
 STEPS_SEEN = 2
@@ -59,24 +59,30 @@ class Related:
         """What all rules find."""
         found = []
         for key, (step, runs) in self._steps().items():
-            found += [*self._waves(key, step, runs), *self._bays(key, step, runs)]
+            found += asked(self._waves, key, step, runs) + asked(self._bays, key, step, runs)
         for name, run in self.runs.items():
-            beam, problems = self._beam(name, run)
-            found += [Finding(text, True) for text in problems]
-            if isinstance(run, PointRun) and (stiffness := self._stiffness_of(name, run)):
-                found += self._contact(name, run, stiffness, beam)
+            found += asked(self._of_run, name, run)
         return found
+
+    def _of_run(self, name: str, run: Run) -> Iterator[Finding]:
+        beam, problems = self._beam(name, run)
+        yield from (Finding(text, True) for text in problems)
+        if isinstance(run, PointRun) and (stiffness := self._stiffness_of(name, run)):
+            yield from self._contact(name, run, stiffness, beam)
 
     def _steps(self) -> dict[str, tuple[float, dict[str, Run]]]:
         """Key of each time step that is possible -> the step [s], and the runs that have it."""
         found: dict[str, tuple[float, dict[str, Run]]] = {}
         for name, run in self.runs.items():
-            own = run.time_step is not None
-            key = f"runs.{name}.time_step" if own else "journey.time_step"
-            step = run.step(self.journey.time_step)
-            if not self.journey.problems_of_step(key, step):
+            for key, step in asked(self._possible, name, run):
                 found.setdefault(key, (step, {}))[1][name] = run
         return found
+
+    def _possible(self, name: str, run: Run) -> Iterator[tuple[str, float]]:
+        key = "journey.time_step" if run.time_step is None else f"runs.{name}.time_step"
+        step = run.step(self.journey.time_step)
+        if not self.journey.problems_of_step(key, step):
+            yield key, step
 
     def _waves(self, key: str, step: float, runs: Mapping[str, Run]) -> Iterator[Finding]:
         """A wave takes `STEPS_A_PERIOD` steps to pass; one below two is taken for a longer one."""
