@@ -17,13 +17,13 @@ import numpy as np
 from contactstudy.arrays import Array
 from contactstudy.exceptions import InputError
 from contactstudy.profiles.curve import ProfileCurve, joined
+from contactstudy.profiles.outliers import POINTS
 from contactstudy.profiles.penalised_spline import needed_knots, penalised_spline
 from contactstudy.profiles.pieces import ParametricPiece, SplinePath
 
 if TYPE_CHECKING:
     from scipy.interpolate import BSpline
 
-_POINTS = 3  # least number of points to an interval
 _ROUNDS, _GAIN = 20, 1e-5  # repetitions, and relative fall of the residual that is worth one
 _SETTLED = 1e-6  # change of the feet [m] at which fit and projection agree
 _FLOOR = 2e-9  # scatter [m] below which nothing is fitted: coordinates in single precision
@@ -103,7 +103,7 @@ def fit_cloud(
     if len(p) < 20 or not np.ptp(p[:, 0]) > 0:
         raise InputError(f"{name}: {len(p)} points on the running surface; allowed: 20 or more")
     s = _start(p)
-    shortest = max(shortest, _POINTS * float(s.max()) / len(p))
+    shortest = max(shortest, POINTS * float(s.max()) / len(p))
     knots = np.linspace(0.0, s.max(), max(int(s.max() / shortest), 1) + 1)
     # smooth at first, so that points far from the polygon find their feet
     for stiff in (8.0, 4.0, 2.0):

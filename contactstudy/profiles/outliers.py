@@ -4,13 +4,17 @@ Contact stresses follow the curvature, so curvature is the measure: a point off 
 neighbours a distance h away bends the curve there by 2 d/h^2.
 """
 
+from dataclasses import dataclass
+
 import numpy as np
 
-from contactstudy.arrays import Array, IntArray
+from contactstudy.arrays import Array, BoolArray, IntArray
 from contactstudy.exceptions import InputError
 
 SHARPEST = 200.0
 """Curvature [1/m] that no profile has on its running surface: radii of 5 mm."""
+KNOTS, POINTS = 0.7e-3, 3
+"""Least distance of a fitted curve's knots [m], and least number of points between them."""
 MOST = 0.02
 """Share of the points that may be outliers."""
 LARGEST_RESIDUAL = 1e-4
@@ -20,47 +24,159 @@ BEARABLE, WORST = 1.0, 10.0
 crown. Of two bodies with curvatures about 3 and 12 1/m the first moves Hertz's peak pressure by
 about a twentieth, the second by more than a third."""
 _SIGMAS = 6.0
+_LONGEST = 3  # points in a row that are outliers together
+_NEAR = 2  # points on either side that a point is compared with
+_LIKE = 0.02  # share of what is seen near an outlier that it may leave unexplained
+_LOWEST = 1e-6  # m; what is off by less may be how the coordinates are rounded
+
+
+def most(count: int) -> int:
+    """Outliers that so many points may have."""
+    return max(int(MOST * count), _LONGEST)
 
 
 def outliers(points: Array) -> tuple[IntArray, Array]:
     """Numbers of outliers among points (n, 2) in walking order, and their distances [m].
 
-    A point is compared with the cubic through its two neighbours on either side. It is an outlier
-    if it lies off by more than six of the points' own standard deviations, from the median of all,
-    and bends the curve more than `SHARPEST`. One after the other is taken out, the worst first.
+    A point is compared with the cubic through its two neighbours on either side. Where it is off by
+    d, its neighbours seem to be off as well, by known shares of d: that tells one point, or up to
+    three in a row, from the end of an arc, at which the curvature jumps. Such are outliers if
+    they lie off by more than six of the points' own standard deviations, from the median of all,
+    and would bend a fitted curve by more than `BEARABLE`. So is any that bends the points' own
+    curve more than `SHARPEST`. They are taken out, the worst first.
     """
     left = np.arange(len(points))
     found: list[int] = []
     off: list[float] = []
-    while len(left) > 10 and len(found) <= MOST * len(points):
-        deviation, bend = _deviations(points[left])
-        limit = _SIGMAS * 1.4826 * np.median(np.abs(deviation))
-        ratio = np.where(np.abs(deviation) > limit, bend / SHARPEST, 0.0)
-        worst = int(np.argmax(ratio))
-        if ratio[worst] <= 1.0:
+    while len(left) > 10 and len(found) <= most(len(points)):
+        seen = _Deviations.of(points[left])
+        out = seen.spike() or seen.sharpest()
+        if not out:
             break
-        found.append(int(left[worst + 2]))
-        off.append(abs(float(deviation[worst])))
-        left = np.delete(left, worst + 2)
+        found += [int(left[k]) for k in out]
+        off += [abs(d) for d in out.values()]
+        left = np.delete(left, list(out))
     return np.array(found, dtype=np.int64), np.array(off)
 
 
-def _deviations(p: Array) -> tuple[Array, Array]:
-    """Distances [m] of points 2 to n - 3 from the cubic of their neighbours, and bends [1/m]."""
-    s = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(p, axis=0), axis=1))])
-    near = (-2, -1, 1, 2)
-    at = [s[2 + k : len(p) - 2 + k] for k in near]
-    here = s[2 : len(p) - 2]
-    predicted = np.zeros((len(p) - 4, 2))
-    for i, k in enumerate(near):
-        # Lagrange's polynomials at the point's own arc length
-        weight = np.prod([(here - t) / (at[i] - t) for j, t in enumerate(at) if j != i], axis=0)
-        predicted += weight[:, None] * p[2 + k : len(p) - 2 + k]
-    chord = p[3 : len(p) - 1] - p[1 : len(p) - 3]
-    h = np.linalg.norm(chord, axis=1)
-    gap = p[2:-2] - predicted
-    deviation = (gap[:, 1] * chord[:, 0] - gap[:, 0] * chord[:, 1]) / h
-    return deviation, 2.0 * np.abs(deviation) / (0.5 * h) ** 2
+def steps(points: Array) -> tuple[IntArray, Array, Array]:
+    """Numbers of points (n, 2) from which on all lie higher or lower, by how much [m], and bends.
+
+    A step is told from the end of an arc as outliers are, by what it makes the points beside it
+    seem. The bends [1/m] are those of a fitted curve that climbs it between two knots.
+    """
+    if len(points) <= 10:
+        return np.zeros(0, dtype=np.int64), np.zeros(0), np.zeros(0)
+    seen = _Deviations.of(points)
+    height, good, much = seen.explained(seen.of_steps())
+    height = np.abs(height)
+    good &= much > seen.much
+    at = np.flatnonzero(good & (height > 2.0 * seen.limit))  # the ends of arcs look like lower ones
+    return at, height[at], height[at] * (np.pi / (2.0 * seen.apart[at])) ** 2
+
+
+@dataclass(frozen=True)
+class _Deviations:
+    """How far each point (n,) is `off` the cubic of its neighbours [m].
+
+    `shares` (n, 5): what points k - 2 to k + 2 seem to be off where point k is off by 1. `limit`
+    (n,): how far off does no harm [m]. `apart` (n,): distance of a fit's knots there [m].
+    `bend` (n,): curvature [1/m]. `sigma`: scatter of what points are off [m].
+    """
+
+    off: Array
+    shares: Array
+    limit: Array
+    apart: Array
+    bend: Array
+    sigma: float
+
+    @classmethod
+    def of(cls, p: Array) -> "_Deviations":
+        n = len(p)
+        s = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(p, axis=0), axis=1))])
+        here, near = np.arange(_NEAR, n - _NEAR), (-2, -1, 1, 2)
+        shares, predicted = np.zeros((n, 2 * _NEAR + 1)), np.zeros((len(here), 2))
+        shares[here, _NEAR] = 1.0
+        for k in near:
+            # Lagrange's polynomials at the point's own arc length
+            weight = np.ones(len(here))
+            for j in near:
+                if j != k:
+                    weight *= (s[here] - s[here + j]) / (s[here + k] - s[here + j])
+            predicted += weight[:, None] * p[here + k]
+            shares[here + k, _NEAR - k] = -weight
+        chord = p[here + 1] - p[here - 1]
+        h = 0.5 * np.linalg.norm(chord, axis=1)
+        gap = p[here] - predicted
+        off, bend, limit = np.zeros(n), np.zeros(n), np.full(n, np.inf)
+        off[here] = (gap[:, 1] * chord[:, 0] - gap[:, 0] * chord[:, 1]) / (2.0 * h)
+        bend[here] = 2.0 * np.abs(off[here]) / h**2
+        sigma = 1.4826 * float(np.median(np.abs(off[here])))
+        # a point off by d among m between knots L apart leaves d/m, with the curvature of a wave
+        apart = np.full(n, KNOTS)
+        apart[here] = np.maximum(KNOTS, POINTS * h)
+        harm = BEARABLE * (apart[here] / h) * (apart[here] / np.pi) ** 2
+        limit[here] = np.maximum(_LOWEST, harm)
+        return cls(off, shares, limit, apart, bend, sigma)
+
+    @property
+    def much(self) -> float:
+        """Sum of squares [m^2] that scatter does not make.
+
+        Scatter of a point is seen at its neighbours as well, with shares whose squares add up to 2:
+        of what is explained the standard deviation is up to ``sqrt(2) sigma``.
+        """
+        return 2.0 * (_SIGMAS * self.sigma) ** 2
+
+    def of_runs(self, count: int) -> Array:
+        """As `shares`, of each point and the next ones together, (n, 4 + count)."""
+        n, width = self.shares.shape
+        runs = np.zeros((n, width + count - 1))
+        for j in range(count):
+            runs[: n - j, j : j + width] += self.shares[j:]
+        runs[: 2 * _NEAR] = runs[n - 2 * _NEAR - count + 1 :] = 0.0  # not all of it is seen there
+        return runs
+
+    def of_steps(self) -> Array:
+        """As `shares`, of each point and all behind it together, (n, 4): points k - 2 to k + 1."""
+        n = len(self.off)
+        steps = np.zeros((n, 2 * _NEAR))
+        for row in range(2 * _NEAR):  # point k + row - 2, and the points j that it is compared with
+            for j in range(row + 1):
+                steps[: n - j, row] += self.shares[j:, row - j]
+        steps[: _NEAR + 1] = steps[n - 2 * _NEAR :] = 0.0
+        return steps
+
+    def explained(self, shares: Array) -> tuple[Array, BoolArray, Array]:
+        """How far something (n,) is off, from its shares (n, m); whether that is all; how much."""
+        n, width = shares.shape
+        padded = np.concatenate([np.zeros(_NEAR), self.off, np.zeros(width)])
+        seen = np.lib.stride_tricks.sliding_window_view(padded, width)[:n]
+        seen = np.where(np.abs(shares) > 1e-9, seen, 0.0)
+        size = (shares**2).sum(axis=1)
+        height = (shares * seen).sum(axis=1) / np.where(size > 0.0, size, np.inf)
+        rest = ((seen - height[:, None] * shares) ** 2).sum(axis=1)
+        allowed = _LIKE * (seen**2).sum(axis=1) + 2.0 * _SIGMAS * self.sigma**2
+        return height, (size > 0.0) & (rest <= allowed), height**2 * size
+
+    def spike(self) -> dict[int, float]:
+        """The worst outlier, a point or a few in a row, and how far each is off [m]."""
+        worst, found = 0.0, dict[int, float]()
+        for count in range(1, _LONGEST + 1):
+            height, good, much = self.explained(self.of_runs(count))
+            good &= (np.abs(height) > self.limit) & (much > self.much)
+            much = np.where(good, much, 0.0)
+            k = int(np.argmax(much))
+            if much[k] > worst:
+                worst, found = float(much[k]), dict.fromkeys(range(k, k + count), float(height[k]))
+        return found
+
+    def sharpest(self) -> dict[int, float]:
+        """The point that bends the points' own curve most, if that is no profile's."""
+        beyond = np.abs(self.off) > _SIGMAS * self.sigma
+        k = int(np.argmax(np.where(beyond, self.bend, 0.0)))
+        return {k: float(self.off[k])} if beyond[k] and self.bend[k] > SHARPEST else {}
 
 
 def scatter_of_rounding(points: Array, digits: Array | None = None) -> float:

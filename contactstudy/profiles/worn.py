@@ -18,10 +18,14 @@ from contactstudy.profiles.orientation import (
     turned,
 )
 from contactstudy.profiles.outliers import (
+    BEARABLE,
+    KNOTS,
     LARGEST_RESIDUAL,
     MOST,
     doubted,
+    most,
     outliers,
+    steps,
 )
 from contactstudy.profiles.profile_file import SUFFIXES, FilePoints, read_points
 from contactstudy.profiles.worn_csv import points_of_csv
@@ -29,8 +33,6 @@ from contactstudy.profiles.worn_faults import POINTS, wrong_extent, wrong_order
 
 Body = Literal["rail", "wheel"]
 
-KNOTS = 0.7e-3
-"""Least distance of a curve's knots [m]."""
 SPACINGS = (1.0, 1.07, 1.2, 1.4)
 """Distances of knots that are tried, over the least: where knots lie beside the joints of arcs is
 chance, and the curvature swings there."""
@@ -145,7 +147,7 @@ def _with_tape_circle(file: Path, read: FilePoints, body: Body) -> FilePoints:
 def _without_outliers(file: Path, read: FilePoints) -> tuple[Array, list[str]]:
     """Points without those that are off by themselves, and what is to be said of them."""
     which, off = outliers(read.points)
-    if len(which) > MOST * len(read.points):
+    if len(which) > most(len(read.points)):
         raise InputError(
             f"{file}: more than {100 * MOST:g} % of its points lie off their neighbours, the first "
             f"in line {read.lines[which[0]]} by {1e6 * off[0]:.3g} um: too much scatter for "
@@ -155,7 +157,15 @@ def _without_outliers(file: Path, read: FilePoints) -> tuple[Array, list[str]]:
         f"{file.name}, line {read.lines[k]}: {1e6 * d:.3g} um off its neighbours, left out"
         for k, d in zip(which, off, strict=True)
     ]
-    return np.delete(read.points, which, axis=0), [*read.notes, *notes]
+    points, lines = np.delete(read.points, which, axis=0), np.delete(read.lines, which)
+    notes += [
+        f"{file.name}, line {lines[k]}: from here on the points lie {1e6 * height:.3g} um "
+        f"higher or lower, a step that bends the curve by about {bend:.2g} 1/m (a 60E1 crown has "
+        "3.3 1/m)"
+        for k, height, bend in zip(*steps(points), strict=True)
+        if bend > BEARABLE
+    ]
+    return points, [*read.notes, *notes]
 
 
 def fitted_curve(
