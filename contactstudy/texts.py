@@ -6,15 +6,19 @@ import json
 import unicodedata
 from typing import Any
 
+_DIRECTIONS = "\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2068\u2069"
+
 
 def problem_of_text(text: str, lines: bool = False) -> str:
     """What is wrong with a text that shall be read by people, "" if nothing is.
 
-    Control characters steer terminals; halves of surrogate pairs stand for bytes that are no UTF-8.
+    Control characters steer terminals; halves of surrogate pairs stand for bytes that are no UTF-8;
+    embeddings and overrides of direction show a text in another order than it is read.
     Line feeds and tabs are allowed with `lines`.
     """
     allowed = "\n\t" if lines else ""
     wrong = [c for c in text if unicodedata.category(c) in ("Cc", "Cs") and c not in allowed]
+    wrong += [c for c in text if c in _DIRECTIONS]
     wrong += [] if lines else [c for c in text if c in "\u2028\u2029"]
     if not wrong:
         return ""

@@ -15,13 +15,17 @@ _FAR = 20.0
 """Robust standard deviations of a row from its neighbours' cubic: sound records reach 14."""
 _LEAST = 5e-5  # m: what no wheel feels at the spacing of a level
 _SHOWN = 5
+_ROWS = 10  # of one value that may stand together, or at the largest
+_OFTEN = 10  # stretches of one value are no dead channel
+_CUT = 0.01  # share of the rows that may stand at the largest
+_COARSE = 0.02  # rounding of all levels, over their range
 
 
 def doubtful(profile: MeasuredProfile, wavelengths: tuple[float, float]) -> list[str]:
     """Warnings of a level as measured (not band-passed), of which `wavelengths` [m] are used."""
     name = Path(profile.name).name
-    found = []
     quantum = _quantum(profile.levels)
+    found = _dead(profile, quantum, wavelengths[0])
     off, spikes = _spikes(profile.levels, max(_LEAST, 2.0 * quantum))
     for k in spikes[:_SHOWN]:
         found.append(
@@ -37,6 +41,42 @@ def doubtful(profile: MeasuredProfile, wavelengths: tuple[float, float]) -> list
             f"{name}: the levels are given in steps of {1e3 * quantum:.3g} mm; waves shorter than "
             f"{longest:.3g} m are for the most part rounding"
         )
+    return found
+
+
+def _dead(profile: MeasuredProfile, quantum: float, shortest: float) -> list[str]:
+    """Stretches of one value, longer than the `shortest` wave [m], and levels cut off at a limit.
+
+    Rounded levels have plateaus on their crests: a dead stretch is twice as long as the tenth
+    longest, and a level cut off stands at its limit twice as often as a rounded sinusoid,
+    ``acos(1 - q/range)/pi`` of the rows.
+    """
+    x, level, name = profile.positions, profile.levels, Path(profile.name).name
+    size = float(np.ptp(level))
+    if size == 0.0 or quantum > _COARSE * size:
+        return []
+    edges = np.flatnonzero(np.diff(level, prepend=np.nan, append=np.nan))
+    start, stop = edges[:-1], edges[1:] - 1
+    rows = stop - start + 1
+    usual = 2 * int(np.sort(rows)[-_OFTEN]) if rows.size > _OFTEN else 0
+    long = (rows >= max(_ROWS, usual)) & (x[stop] - x[start] >= shortest)
+    found = [
+        f"{name}: from X = {x[a]:.6g} to {x[b]:.6g} m all levels are {1e3 * level[a]:.4g} mm: a "
+        "dead channel?"
+        for a, b in zip(start[long], stop[long], strict=True)
+    ]
+    found = found[:_SHOWN] + ([f"{name}: and more such stretches"] if long.sum() > _SHOWN else [])
+    alive = np.ones(level.size, dtype=bool)
+    for a, b in zip(start[long], stop[long], strict=True):
+        alive[a : b + 1] = False
+    most = max(_ROWS, level.size * max(_CUT, 2.0 * np.arccos(1.0 - quantum / size) / np.pi))
+    for limit in (float(level.min()), float(level.max())):
+        count = np.count_nonzero(alive & (level == limit))
+        if count > most:
+            found.append(
+                f"{name}: {count} levels are {1e3 * limit:.4g} mm and none is beyond: cut off at "
+                "the instrument's limit?"
+            )
     return found
 
 

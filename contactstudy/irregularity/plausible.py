@@ -66,7 +66,8 @@ def implausible(
             for k in np.flatnonzero((np.abs(level) * metre > LARGEST) & ~placeholders)
         ],
     )
-    about = float(np.std(level - np.polyval(np.polyfit(x, level, 1), x))) * metre
+    with np.errstate(over="ignore", invalid="ignore"):  # values beyond all sense are named above
+        about = float(np.std(level - np.polyval(np.polyfit(x, level, 1), x))) * metre
     if np.any(level != level[0]) and about < SMALLEST:
         problems.append(
             f"{file}, column '{column}' has a standard deviation of {1e6 * about:.3g} um in "

@@ -28,6 +28,7 @@ FOLD = 5e-5
 STEEP = np.tan(np.deg2rad(85.0))
 """Slope above which the ends, vertical faces that nothing rolls on, are left out."""
 
+_COMMAS = re.compile(r"\s*[-+]?\d*,\d+[\s;]+[-+]?\d*,\d+\s*([;\s]|$)")
 _DISABLED = ('"', "!", "#", "%", ";", "//")
 # a wheel's mirroring, and z of both, are found by the shape
 _NOT_APPLIED = {
@@ -132,7 +133,7 @@ def _read(rows: Rows) -> Iterator[tuple[int, list[float] | None]]:
     """Line and the first two numbers of each row that is not blank; None where there are none."""
     for line, text in rows:
         cells = re.split(r"[\s,;\t]+", text.strip(), maxsplit=2)[:2]
-        values = [finite_number(cell) for cell in cells]
+        values = [None if _COMMAS.match(text) else finite_number(cell) for cell in cells]
         if text.strip():
             good = [value for value in values if value is not None]
             yield line, good if len(good) == 2 else None
@@ -145,7 +146,9 @@ def _numbers(rows: Rows) -> tuple[Array, list[int], list[str], int]:
     points, lines, faults = [], [], []
     for line, values in _read(enabled):
         if values is None:
-            faults.append(f"line {line}: does not begin with two numbers")
+            faults.append(
+                f"line {line}: does not begin with two numbers, which have decimal points"
+            )
         else:
             points.append(values)
             lines.append(line)

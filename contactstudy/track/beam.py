@@ -47,8 +47,8 @@ class BeamTrack(AssembledTrack, Parameters):
             return [
                 f"{key('track')}: stands on a bridge, which one rail alone cannot; StructureTrack"
             ]
-        if self.n_elements <= MOST_ELEMENTS:
-            return []
+        if self.n_elements <= MOST_ELEMENTS or self.track.n_bays > MOST_ELEMENTS:
+            return []  # of a track that is too long is complained elsewhere
         allowed = (
             f"must be at most {MOST_ELEMENTS // self.track.n_bays}, {MOST_ELEMENTS} elements in "
             f"the {self.track.n_bays} bays of the track"

@@ -49,6 +49,7 @@ def test_nothing_steers_a_terminal(given):
 @given(st.text(st.characters()), st.sampled_from(["\0", "\x1b", "\x7f", "\x9b", "\ud800", "\r"]))
 def test_control_characters_are_refused(given, wrong):
     assert f"U+{ord(wrong):04X}" in problem_of_text(wrong + given)
+    assert "U+202E" in problem_of_text("a\u202eb") and not problem_of_text("\u05d0b")
     assert problem_of_text("a\nb") and not problem_of_text("a\n\tb", lines=True)
 
 

@@ -213,3 +213,27 @@ def test_where_rounding_is_most_of_the_level_is_where_its_noise_meets_the_spectr
     below = float(re.search(r"shorter than (\S+) m", text)[1])
     assert below == pytest.approx(2.0 * np.pi / meets, rel=0.15)
     assert not doubtful(read(tmp_path, rows, wavelengths=None), (2.0 * below, 42.0))
+
+
+@settings(max_examples=25, deadline=None)
+@given(at=st.integers(3, ROWS - 60), length=st.integers(12, 50), seed=st.integers(0, 99))
+def test_a_stretch_of_one_value_is_warned_of_with_its_ends(tmp_path_factory, at, length, seed):
+    folder, rows = tmp_path_factory.mktemp("s"), cells(seed)
+    for k in range(at, at + length):
+        rows[k][1] = rows[at][1]
+    found = doubtful(read(folder, rows, wavelengths=None), (2.5, 42.0))
+    first, last = float(rows[at][0]), float(rows[at + length - 1][0])
+    (text,) = [text for text in found if "a dead channel?" in text]
+    low, high = (float(v) for v in re.search(r"from X = (\S+) to (\S+) m", text).groups())
+    assert low <= first and last <= high and high - low < last - first + 3 * 0.25
+    assert not any("cut off" in text for text in found)
+
+
+@pytest.mark.parametrize("share", [0.5, 0.8])
+def test_a_level_cut_off_at_a_limit_is_warned_of(tmp_path, share):
+    rows = cells(5)
+    level = np.array([float(row[1]) for row in rows[1:]])
+    for row, value in zip(rows[1:], np.minimum(level, share * level.max()), strict=True):
+        row[1] = f"{value:.3f}"
+    found = doubtful(read(tmp_path, rows, wavelengths=None), (2.5, 42.0))
+    assert sum("none is beyond: cut off" in text for text in found) == 1

@@ -86,3 +86,14 @@ def test_the_manchester_rail_is_one_in_both_forms():
     s = np.linspace(-0.03, 0.02, 100)
     one, two = (rail_curve(str(SHARED / f"MBench_UIC60_v3{x}")) for x in (".ban", ".prr"))
     assert one.point(s) == pytest.approx(two.point(s), abs=1e-7)
+
+
+@pytest.mark.parametrize("separator", [";", " ", "\t", "; "])
+def test_decimal_commas_are_named_and_not_read_as_two_numbers(tmp_path, separator):
+    p = points("rail")
+    sound = write(tmp_path / "a.txt", p, "!", separator=separator)
+    assert worn_curve(sound, "rail").residual < 1e-6
+    commas = tmp_path / "b.txt"
+    commas.write_text(sound.read_text().replace(".", ","))
+    with pytest.raises(InputError, match="line 2: does not begin with two numbers, which have dec"):
+        worn_curve(commas, "rail")

@@ -34,17 +34,18 @@ def wrong_files(tables: Mapping[str, Any], runs: Mapping[str, Run]) -> list[str]
 
 
 def _level(table: Irregularity) -> None:
-    if table.measured_file and table.level_column:
-        table.measured(table.wavelengths)
+    if table.measured_file and table.level_column not in ("", table.x_column):
+        low, high = table.wavelengths
+        table.measured((low, high) if low < high else None)
 
 
 def _scans(table: ScanFiles) -> None:
-    if (table.rail_unit or not table.rail) and (table.wheel_unit or not table.wheel):
+    if not table.broken(str):
         table.surfaces()
 
 
 def _record(table: MeasuredRecord) -> None:
-    if table.used and table.channels:
+    if table.used and not table.broken(str):
         problems = list[str]()
         with gathered(problems, "measured.file: "):
             table.read()
