@@ -6,8 +6,9 @@ and J. H. Lin, J. Sound Vib. 270 (2004) 673, per rail seat.
 """
 
 import math
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 
@@ -162,12 +163,14 @@ class Track(Parameters):
         ),
     ] = None
 
+    settled: ClassVar = ("length",)
+
     def settle(self) -> None:
         """The length of a track on a bridge is the bridge's."""
         if self.structure is not None:
             object.__setattr__(self, "length", self.structure.length)
 
-    def problems(self, key: Naming) -> list[str]:
+    def problems(self, key: Naming) -> Iterable[str]:
         """Supports that do not fit the length, or do not hold the rail."""
         if self.structure is not None:
             return self._on_bridge(self.structure, key)
@@ -186,20 +189,18 @@ class Track(Parameters):
                 return [complaint(key("length"), self.length, allowed)]
         return []
 
-    def _on_bridge(self, bridge: Bridge, key: Naming) -> list[str]:
-        problems = []
-        if not isinstance(self.support, DiscreteSupports):
-            problems.append(f"{key('support')}: must be discrete supports on a bridge")
-        elif (shortest := min((*bridge.spans, np.inf))) < 2.0 * self.support.spacing:
-            allowed = f"must be at least two support spacings, {2.0 * self.support.spacing:g} m"
-            problems.append(complaint(key("spans"), shortest, allowed))
+    def _on_bridge(self, bridge: Bridge, key: Naming) -> Iterator[str]:
         if self.ends != "clamped":
             allowed = 'must be "clamped" on a bridge, whose approaches carry the rails\' ends'
-            problems.append(complaint(key("ends"), self.ends, allowed))
+            yield complaint(key("ends"), self.ends, allowed)
+        if not isinstance(self.support, DiscreteSupports):
+            yield f"{key('support')}: must be discrete supports on a bridge"
+        elif (shortest := min((*bridge.spans, np.inf))) < 2.0 * self.support.spacing:
+            allowed = f"must be at least two support spacings, {2.0 * self.support.spacing:g} m"
+            yield complaint(key("spans"), shortest, allowed)
         if self.given("length") and abs(self.length - bridge.length) > 1e-6:
             allowed = f"is that of the bridge and its approaches, {bridge.length:g} m; leave it out"
-            problems.append(complaint(key("length"), self.length, allowed))
-        return problems
+            yield complaint(key("length"), self.length, allowed)
 
     @property
     def mass_on_structure(self) -> float:

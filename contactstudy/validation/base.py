@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import MISSING, dataclass, replace
-from typing import Any, Self, cast
+from typing import Any, ClassVar, Self, cast
 
 from contactstudy.validation.checks import raise_if
 from contactstudy.validation.definition import Parameter, parameter, parameters
@@ -34,6 +34,9 @@ class Parameters:
         From a derived class: with every value that is not allowed; with every rule over several
         values that is broken, once each alone is allowed.
     """
+
+    settled: ClassVar[tuple[str, ...]] = ()
+    """Fields that `settle` sets."""
 
     def __post_init__(self) -> None:
         key = self._naming()

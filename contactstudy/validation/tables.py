@@ -172,13 +172,13 @@ def _in_part(
         else:
             values[name] = f.default if f.default_factory is MISSING else f.default_factory()
     values = {name: value for name, value in values.items() if name not in unread}
-    values |= check(table, values, key)[0]
-    made = partly(table, values | {"_place": place}, unread)
+    values |= check(table, values, key)[0] | {"_place": place}
+    made = partly(table, values, unread)
     problems = problems + made.broken(key)
     try:
         made.settle()
     except UnreadError:
-        return None, problems
+        made = partly(table, values, {*unread, *table.settled})
     return made, problems
 
 

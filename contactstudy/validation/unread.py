@@ -37,7 +37,8 @@ def partly(owner: type, values: Mapping[str, Any], unread: Collection[str]) -> A
         type(owner.__name__, (owner,), own | dict.fromkeys(unread, property(fail)))
     )
     for name, value in values.items():
-        object.__setattr__(made, name, value)
+        if name not in unread:
+            object.__setattr__(made, name, value)
     return made
 
 

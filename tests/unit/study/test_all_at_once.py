@@ -144,3 +144,37 @@ def test_every_fault_is_named_and_no_other(tmp_path: Path, seed: int) -> None:
     missing = [part for part in expected if not any(part in p for p in found)]
     more = [p for p in found if not any(part in p for part in expected)]
     assert not missing and not more, "\n".join([*missing, "", *more, "", *found])
+
+
+def _told(folder: Path, text: str) -> str:
+    (folder / "study.toml").write_text(text)
+    return "\n".join(_problems(folder / "study.toml"))
+
+
+def test_a_bridge_of_which_nobody_knows_the_length_hides_nothing(tmp_path):
+    found = _told(
+        tmp_path,
+        '[track]\nstructure = "bridge"\nspans = "3 x -32 m"\nends = "free"\n'
+        '[vehicle]\ntype = "train"\ncars = ["s300_end", "none"]\nmodel = "spatial"\n'
+        '[journey]\nspeed = "3 kg"\nto = "1000 km"\n[irregularity]\nspectrum = "measured"\n'
+        'file = "none.csv"\nlevel_column = "r"\nwavelengths = [20, 3]\n'
+        '[runs.a]\nsolver = "point"\nk_r = "3 m"\nlocal_compliance = true\n'
+        '[runs.b]\nsolver = "surface"\nwheel = "soft"\n',
+    )
+    named = (
+        "track.spans", "track.ends", "vehicle.cars.1", "vehicle.model", "journey.speed", "none.csv",
+        "irregularity.wavelengths", "runs.a.k_r", "runs.a.local_compliance", "runs.b.wheel",
+        "runs.b: needs a meshed rail",
+    )  # fmt: skip
+    assert [name for name in named if name not in found] == [], found
+    assert len(found.split("\n")) == len(named) + 2  # three spans
+
+
+def test_positions_with_a_wrong_value_are_held_to_their_other_rules(tmp_path):
+    found = _told(
+        tmp_path,
+        '[positions]\nlateral = ["3 kg"]\nwheels = []\nload = -3\nwheel_profile = "none.csv"\n',
+    )
+    named = ("positions.lateral.0", "positions.wheels", "positions.load", "none.csv")
+    assert [name for name in named if name not in found] == [], found
+    assert len(found.split("\n")) == len(named)

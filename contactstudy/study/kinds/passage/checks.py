@@ -19,7 +19,7 @@ from contactstudy.study.kinds.passage.scan import ScanFiles
 from contactstudy.study.kinds.passage.solid import Solid
 from contactstudy.study.kinds.passage.wheelset import WheelsetPosition, problems_of
 from contactstudy.track.model import Track
-from contactstudy.validation import UnreadError, asked, complaint, parameters
+from contactstudy.validation import asked, complaint, parameters
 from contactstudy.validation.base import naming
 from contactstudy.vehicle import Vehicle, VehicleTable
 
@@ -37,13 +37,12 @@ def combined(tables: Mapping[str, Any], runs: Mapping[str, Run]) -> list[str]:
     # their own complaints are enough
     if (journey := known["journey"]) is not None and not asked(_leads, journey):
         known["journey"] = None
-    try:
-        if known["vehicle"] is not None:
-            known["made"] = _vehicle(**known)
-    except InputError:
-        known["vehicle"] = None
-    except UnreadError:
-        pass
+    if known["vehicle"] is not None:
+        try:
+            asked(lambda: [known["vehicle"].wheel_radius])
+            known["made"] = next(iter(asked(_vehicle, **known)), None)
+        except InputError:
+            known["vehicle"] = None
     return [problem for rule in _RULES for problem in asked(rule, **known)]
 
 
@@ -52,8 +51,8 @@ def _leads(journey: Journey) -> Iterator[bool]:
         yield True
 
 
-def _vehicle(track: Track | None, vehicle: VehicleTable, **_: Any) -> Vehicle:
-    return vehicle.vehicle() if track is None else vehicle_on(track, vehicle)
+def _vehicle(track: Track | None, vehicle: VehicleTable, **_: Any) -> list[Vehicle]:
+    return [vehicle.vehicle() if track is None else vehicle_on(track, vehicle)]
 
 
 def _of_runs(

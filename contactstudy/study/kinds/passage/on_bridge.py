@@ -81,6 +81,14 @@ def _on_bridge(
     if not isinstance(run, PointRun) or run.needs_solid:
         yield f"runs.{name}: needs a meshed rail; the rails of a bridge are beams"
         return
+    for key, holds in {
+        "local_compliance": run.local_compliance,
+        "bay_compliance": run.bay_compliance,
+        "direction": run.direction == "Y",
+    }.items():
+        if holds:
+            allowed = "is not possible on a bridge"
+            yield complaint(f"runs.{name}.{key}", getattr(run, key), allowed)
     if run.presses:
         yield (
             f"runs.{name}: needs the static press of a meshed rail; the rails of a bridge are "
@@ -92,11 +100,3 @@ def _on_bridge(
         yield complaint(f"runs.{name}.k_r", run.k_r, allowed)
     if run.travel == "backward" and irregularity is not None and irregularity.rail_defect:
         yield f'runs.{name}.travel: must be "forward" with irregularity.rail_defect'
-    for key, holds in {
-        "local_compliance": run.local_compliance,
-        "bay_compliance": run.bay_compliance,
-        "direction": run.direction == "Y",
-    }.items():
-        if holds:
-            allowed = "is not possible on a bridge"
-            yield complaint(f"runs.{name}.{key}", getattr(run, key), allowed)

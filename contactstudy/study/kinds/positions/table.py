@@ -8,7 +8,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, Literal
 
-from contactstudy.exceptions import InputError
+from contactstudy.exceptions import InputError, gathered
 from contactstudy.geometry.wheelset import SIDES, Side, Wheelset
 from contactstudy.halfspace.hertz import contact_modulus
 from contactstudy.profiles.wheel_file import named_file_digest
@@ -33,6 +33,7 @@ from contactstudy.validation import (
     Same,
     Unit,
     Written,
+    asked,
     listed,
     raise_if,
     read,
@@ -92,23 +93,29 @@ class Positions(ProfileFiles):
 
     def problems(self, key: Naming) -> list[str]:
         """Series of unequal lengths, and wheels named twice."""
-        n = len(self.lateral)
         wrong_ways = super().problems(key)
-        problems = wrong_ways + [
+        problems = wrong_ways + asked(self._unequal, key) + asked(self._not_once, key)
+        return problems + ([] if wrong_ways else asked(self._misfits, key))
+
+    def _misfits(self, key: Naming) -> list[str]:
+        problems = list[str]()
+        with gathered(problems):
+            self._wheelset(key)
+        return problems
+
+    def _unequal(self, key: Naming) -> list[str]:
+        n = len(self.lateral)
+        return [
             f"{key(name)}: has {len(values)} values; must have one, or one for each of the "
             f"{n} of {key('lateral')}"
             for name in ("yaw", "roll")
             if not isinstance(values := getattr(self, name), str) and len(values) not in (1, n)
         ]
-        if not self.wheels or len(set(self.wheels)) < len(self.wheels):
-            problems.append(f'{key("wheels")}: must name "left", "right" or both, once each')
-        if wrong_ways:
-            return problems
-        try:
-            self._wheelset(key)
-        except InputError as error:
-            problems += error.problems
-        return problems
+
+    def _not_once(self, key: Naming) -> list[str]:
+        if self.wheels and len(set(self.wheels)) == len(self.wheels):
+            return []
+        return [f'{key("wheels")}: must name "left", "right" or both, once each']
 
     @property
     def wheelset(self) -> Wheelset:
