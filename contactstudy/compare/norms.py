@@ -147,7 +147,9 @@ def _without_mean(a: ArrayLike, x: ArrayLike) -> Array:
     a = np.asarray(a, dtype=float)
     length = inner(np.ones(a.shape[-1]), np.ones(a.shape[-1]), x)
     mean = trapezoid(a, np.asarray(x), axis=-1) / length
-    return dynamic_part(a, mean)
+    free = dynamic_part(a, mean)
+    constant = np.abs(free).max() <= 1e-12 * np.abs(a).max()  # but for what the mean rounds
+    return np.zeros_like(free) if constant else free
 
 
 def _ratio(numerator: float, denominator: float) -> float:

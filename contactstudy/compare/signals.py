@@ -29,6 +29,15 @@ starts, and no difference between the models.
 """
 
 
+_OF_WHEEL = ("wheel_displacement", "wheel_acceleration")
+_MOVING_FORCE = "moving force"
+
+
+def carries(run: xr.Dataset, name: str) -> bool:
+    """Whether a run has a signal; a moving force has no wheel that could move."""
+    return name in run and not (name in _OF_WHEEL and run.attrs.get("law") == _MOVING_FORCE)
+
+
 def at_rest(run: xr.Dataset, name: str) -> Array:
     """Value (...,) in SI units in the static start, of each wheel."""
     return np.asarray(run[name].values, dtype=np.float64)[..., 0]

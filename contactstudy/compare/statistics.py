@@ -34,6 +34,11 @@ class Spread:
     low: float
     high: float
 
+    @property
+    def constant(self) -> bool:
+        """Whether all values are the same, but for rounding."""
+        return self.high - self.low <= 1e-9 * abs(self.mean)
+
 
 def spread(values: ArrayLike, confidence: float = CONFIDENCE) -> Spread:
     """`Spread` of values (n,)."""

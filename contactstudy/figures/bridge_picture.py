@@ -53,12 +53,12 @@ def _caption(name: str, scene: Scene) -> str:
     on = np.unique(np.round(wheels, 6))
     on = on[(on >= scene.bridge.supports[0]) & (on <= scene.bridge.supports[-1])]
     at, factor = float(scene.x[node]), number(scene.factor, 1)
+    cars = " and cars on their wheels" if "car_outline" in run else ""
     return (
         f"The bridge under the train, {label(name)}, at the instant of the {len(scene.up)} kept at "
         f"which a deck moves most: {number(down, 3)} mm at X = {number(at, 4)} m, {len(on)} "
         "wheelsets on the bridge. Above: displacement of all decks (blue) and of the rail (grey), "
         f"wheels as dots. Below: the span that moves most, its displacements enlarged {factor} "
-        "times; wheels stand on the rail and cars on their wheels, without the irregularity and "
-        f"their own motion. {FIGURES}/{ANIMATION} shows the whole passage, fields/bridge.pvd opens "
-        "it in ParaView."
+        f"times; wheels stand on the rail{cars}, without the irregularity and their own motion. "
+        f"{FIGURES}/{ANIMATION} shows the whole passage, fields/bridge.pvd opens it in ParaView."
     )

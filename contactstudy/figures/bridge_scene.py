@@ -19,6 +19,7 @@ from contactstudy.solvers.bridge_frames import DECK, PIER, RAIL, frame_steps, ru
 from contactstudy.track.bridge import Bridge
 
 _DRAWN, _ABOVE, _AROUND = 5.6, 1.1, 1.15  # inch: width; height of the upper panel and of labels
+_TALLEST = 3.4  # inch, of the lower panel
 _WIDEST, _PIER_WIDTH = 90.0, 2.0  # m
 _LARGEST = 1.2  # m, of the enlarged displacement
 BODY = 1.0, 3.7
@@ -87,11 +88,13 @@ class Scene:
         """Limits of X and Z about the span that deflects most [m]."""
         bridge, supports = self.bridge, self.bridge.supports
         k = int(np.clip(np.searchsorted(supports, self.x[self.node]) - 1, 0, len(supports) - 2))
+        foot = min(float(self.z.min()), -bridge.bearing_depth - 2.0) - 0.5
+        top = self.surface + BODY[1] + 1.0
         width = min(2.0 * (supports[k + 1] - supports[k]), _WIDEST)
+        width = max(width, (top - foot) * _DRAWN / _TALLEST)
         middle = 0.5 * (supports[k] + supports[k + 1])
         left = float(np.clip(middle - 0.5 * width, 0.0, max(bridge.length - width, 0.0)))
-        foot = min(float(self.z.min()), -bridge.bearing_depth - 2.0) - 0.5
-        return left, left + width, foot, self.surface + BODY[1] + 1.0
+        return left, left + width, foot, top
 
     def _stays(self, axes: Axes) -> None:
         bridge, supports = self.bridge, self.bridge.supports

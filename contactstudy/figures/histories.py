@@ -36,19 +36,27 @@ _CELLS = 160
 """Parts of the way in each of which a band shows the range of a run that swings quickly."""
 _QUICK = 0.3
 """A run swings quickly if the median range in such a part is more than this of all its range."""
+_BAND = 0.35
+"""Opacity of such a band."""
 _LOUD = 2.5
 """So many times the next largest difference, at most, the panel of differences shows."""
 
 
 def drawings(results: StudyResults) -> list[Drawing]:
-    """One figure for each signal that all runs of a study with a reference carry."""
-    if results.reference is None or not others(results):
-        return []
+    """One figure for each signal that the reference and others carry."""
     return [
         Drawing(s.name, _caption(results, s), partial(_draw, results, s))
         for s in SIGNALS
-        if all(has_signal(run, s.name) for run in results.runs.values())
+        if _having(results, s)
     ]
+
+
+def _having(results: StudyResults, signal: Signal) -> list[str]:
+    """Runs whose signal is compared with the reference's."""
+    known = others(results)
+    if not known or not has_signal(results.runs[str(results.reference)], signal.name):
+        return []
+    return [name for name in known if has_signal(results.runs[name], signal.name)]
 
 
 _FAINT = 0.3
@@ -87,6 +95,8 @@ def _draw(results: StudyResults, signal: Signal) -> Figure:
 def _curves(axes: Axes, results: StudyResults, signal: Signal) -> None:
     for name, style in styles(results).items():
         run = results.runs[name]
+        if not has_signal(run, signal.name):
+            continue
         text = label(name) + (" (reference)" if name == results.reference else "")
         y = from_rest(run, signal.name) * signal.scale
         order = 3.0 if name == results.reference else 2.5
@@ -98,7 +108,7 @@ def _differences(axes: Axes, results: StudyResults, signal: Signal) -> None:
     """The quiet runs over the loud ones."""
     axes.axhline(0.0, color=BLACK, lw=0.5)
     found = {}
-    for name in others(results):
+    for name in _having(results, signal):
         x, ours, theirs = compared(results, name, signal.name)
         found[name] = x, (theirs - ours) * signal.scale
     loud_first = sorted(found, key=lambda name: -float(np.abs(found[name][1]).max()))
@@ -122,7 +132,8 @@ def _difference(
     edges = np.linspace(0, len(y), _CELLS + 1).astype(int)[:-1]
     low, high = np.minimum.reduceat(y, edges), np.maximum.reduceat(y, edges)
     middle = x[np.minimum(edges + len(y) // (2 * _CELLS), len(x) - 1)]
-    axes.fill_between(middle, low, high, color=style.color, alpha=0.35, lw=0, zorder=order)
+    alpha = _BAND * opacity
+    axes.fill_between(middle, low, high, color=style.color, alpha=alpha, lw=0, zorder=order)
 
 
 def swings_quickly(y: Array) -> bool:
@@ -155,7 +166,7 @@ def zoom_window(results: StudyResults, signal: Signal, start: float) -> tuple[fl
     reference = results.runs[str(results.reference)]
     first, last = start, float(position(reference)[-1])
     best, centre = -1.0, 0.5 * (first + last)
-    for name in others(results):
+    for name in _having(results, signal):
         x, ours, theirs = compared(results, name, signal.name, start)
         k = int(np.argmax(np.abs(theirs - ours)))
         if abs(theirs[k] - ours[k]) > best:
@@ -181,11 +192,11 @@ def _caption(results: StudyResults, signal: Signal) -> str:
     y = y[position(results.runs[reference]) >= start] * signal.scale
     rest = ", counted from rest" if signal.name in WITHOUT_STATIC else ""
     told = [
-        f"{signal.label}{rest}. Behind the fade-in {label(reference)} "
+        f"{signal.label}{rest}. After the fade-in that of {label(reference)} "
         f"{between(y.min(), y.max(), 4)} {signal.unit}."
     ]
     largest = []
-    for name in others(results):
+    for name in _having(results, signal):
         _, ours, theirs = compared(results, name, signal.name, start)
         largest.append((float(np.max(np.abs(theirs - ours))) * signal.scale, name))
     largest.sort()

@@ -67,8 +67,8 @@ def comparisons(info: IrregularityInfo) -> list[str]:
         if np.isfinite(mean):
             side = "above" if mean > 0 else "below"
             sentences.append(
-                f"{capital(other.label)} lies on average {number(abs(mean), 2)} dB {side} "
-                f"{info.spectrum.label} between {exact(low, 3)} and {exact(high, 3)} rad/m."
+                f"On average over {exact(low, 3)} to {exact(high, 3)} rad/m “{other.label}” lies "
+                f"{number(abs(mean), 2)} dB {side} “{info.spectrum.label}”."
             )
     return sentences
 
@@ -158,7 +158,7 @@ def within(span: tuple[float, float] | None, profile: Level) -> tuple[float, flo
 def _profile_caption(profile: Level, travelled: tuple[float, float] | None) -> str:
     r = profile.level * 1e3
     text = (
-        f"Vertical irregularity r(X) of the track, {profile.label}, positive upwards: from "
+        f"Vertical irregularity of the track ({profile.label}), positive upwards: from "
         f"{number(r.min())} to {number(r.max())} mm, "
         f"root mean square {number(float(np.std(r)))} mm."
     )

@@ -90,8 +90,8 @@ def _caption(results: StudyResults, record: xr.Dataset, found: dict[str, dict[st
         values = [c["correlation"] for c in one["channels"].values()]
         errors = [c["normalised_error"] for c in one["channels"].values()]
         text = (
-            f"{label(run)}: correlation {_range(values, 4)}, normalised error "
-            f"{_range([100 * e for e in errors])} %"
+            f"{label(run)}: correlation {spread(values, 4)}, normalised error "
+            f"{spread([100 * e for e in errors])} %"
         )
         if results.config.get(GROUP, {}).get("scale") == "fitted":
             text += f", scale {number(one['scale'], 4)}"
@@ -114,6 +114,7 @@ def _zeros(record: xr.Dataset, one: dict[str, Any]) -> str:
     return ", ".join(told)
 
 
-def _range(values: list[float], digits: int = 3) -> str:
+def spread(values: list[float], digits: int = 3) -> str:
+    """Smallest and largest of some values."""
     low, high = number(min(values), digits), number(max(values), digits)
     return low if low == high else f"{low} to {high}"

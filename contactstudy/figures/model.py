@@ -34,7 +34,7 @@ def _draw(results: StudyResults) -> Figure:
     axes = figure.add_subplot()
     axes.set(aspect="equal", xlim=(-2.75, 5.6), ylim=(low, top))
     axes.axis("off")
-    _track(axes, config["track"])
+    _track(axes, config["track"], _rough(config))
     _vehicle(axes, config)
     _coordinates(axes)
     for k, contact in enumerate(shown):
@@ -42,13 +42,21 @@ def _draw(results: StudyResults) -> Figure:
     return figure
 
 
-def _track(axes: Axes, track: Mapping[str, Any]) -> None:
+def _rough(config: Mapping[str, Any]) -> bool:
+    """Whether the rail is anything but smooth."""
+    irregularity = config.get("irregularity", {})
+    defect = irregularity.get("rail_defect", "none")
+    return irregularity.get("spectrum") != "smooth" or defect != "none"
+
+
+def _track(axes: Axes, track: Mapping[str, Any], rough: bool) -> None:
     """Rail on its supports: pad, sleeper and what lies below it, or a bedding all along."""
     ends = (-_BAYS / 2 - 0.45, _BAYS / 2 + 0.45)
     axes.add_patch(Rectangle((ends[0], -0.12), ends[1] - ends[0], 0.12, fc=SHADE, ec=BLACK, lw=0.8))
-    x = np.linspace(*ends, 400)
-    axes.plot(x, 0.035 + 0.03 * np.sin(4.1 * x) * np.sin(1.3 * x + 0.4), color=BLUE, lw=0.9)
-    axes.text(ends[0] + 0.02, 0.13, "$r_v(X)$", color=BLUE, fontsize=8, parse_math=True)
+    if rough:
+        x = np.linspace(*ends, 400)
+        axes.plot(x, 0.035 + 0.03 * np.sin(4.1 * x) * np.sin(1.3 * x + 0.4), color=BLUE, lw=0.9)
+        axes.text(ends[0] + 0.02, 0.13, "$r_v(X)$", color=BLUE, fontsize=8, parse_math=True)
     discrete = track.get("support") == "discrete"
     if track.get("support") == "none":
         return
@@ -193,8 +201,9 @@ def _caption(results: StudyResults) -> str:
     contacts = {"point": "a law at a point of a beam", "surface": "pressure between meshed bodies"}
     several = config.get("vehicle", {}).get("type") not in ("wheel_column", "bare_wheel", None)
     wheel = "one of the wheels" if several else "a wheel"
+    rail = "an irregular rail" if _rough(config) else "a smooth rail"
     told = [
-        f"The model, not to scale: {wheel} rolls along X over an irregular rail {support}.",
+        f"The model, not to scale: {wheel} rolls along X over {rail} {support}.",
         "Z points upwards, Y across the track away from the viewer.",
     ]
     if config["track"].get("structure") == "bridge":

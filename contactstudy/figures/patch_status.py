@@ -94,9 +94,9 @@ def _caption(name: str, run: xr.Dataset, patch: ShownPatch, status: Status) -> s
     deepest = max(-float(status.gap.min()), 0.0)
     return (
         f"Contact of the run {label(name)} at X = {exact(patch.position)} m: the contact points, "
-        "four to a facet (left), and the gap around the patch (right). As in the map of pressure "
-        "the patch is the points that touch and open ones among them. Those that touch stand for "
-        f"{number(float(area @ nodal) * 1e6)} mm². That is less than the patch, and it jumps as "
-        "points come and go: the contact area of a run is taken from the gap around the patch. The "
-        f"largest penetration at a node is {number(deepest, 2)} µm."
+        "four to a facet (left), and the gap around the patch (right). As in the map of pressure, "
+        "the patch holds the points that touch and the open ones among them. The points that "
+        f"touch stand for {number(float(area @ nodal) * 1e6)} mm². That is less than the patch, "
+        "and it jumps as points come and go, so the contact area of a run is taken from the gap "
+        f"around the patch. The largest penetration at a node is {number(deepest, 2)} µm."
     )

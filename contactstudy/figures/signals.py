@@ -8,6 +8,7 @@ import xarray as xr
 from contactstudy.arrays import Array
 from contactstudy.compare.signals import (
     WITHOUT_STATIC,
+    carries,
     dynamic,
     position,
     same_way,
@@ -52,7 +53,7 @@ def styles(results: StudyResults) -> dict[str, LineStyle]:
 
 def has_signal(run: xr.Dataset, name: str) -> bool:
     """Whether the run carries the signal over time."""
-    return name in run and "time" in run[name].dims
+    return carries(run, name) and "time" in run[name].dims
 
 
 def fade_end(results: StudyResults) -> float:

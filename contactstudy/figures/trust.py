@@ -162,19 +162,27 @@ def drawings(results: StudyResults) -> list[Drawing]:
     found = trust_map(results)
     if found is None:
         return []
-    return [Drawing("trust_map", _caption(found), lambda: _draw(found))]
+    return [Drawing("trust_map", _caption(found), lambda: _draw(found), _found(found))]
 
 
-def _caption(found: TrustMap) -> str:
+def _found(found: TrustMap) -> str:
+    return f"Share of the map on which the error is below 5 %: {_trusted(found)}."
+
+
+def _trusted(found: TrustMap) -> str:
     told = []
     for run in found.runs:
         errors = found.errors.sel(run=run)
         share = float((errors < 5.0).sum() / errors.notnull().sum())
         told.append(f"{label(run)} {number(100 * share, 2)} %")
+    return ", ".join(told)
+
+
+def _caption(found: TrustMap) -> str:
     text = (
         "Error of the part of the contact force that the irregularity causes, per cent; rows: "
         "schemes, columns: speeds. Share of the cells below 5 %: "
-        f"{', '.join(told)}. Black: contours of 1, 2, 5 and 10 %. Blue: limit of ISO 3095; grey, "
+        f"{_trusted(found)}. Black: contours of 1, 2, 5 and 10 %. Blue: limit of ISO 3095; grey, "
         "dashed: amplitude of a third octave of the paper's Table 1."
     )
     if found.measured is not None:

@@ -1,5 +1,8 @@
 """Draw curves that are given as data, in the one style."""
 
+from collections.abc import Sequence
+
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from contactstudy.plot.curves import Plot
@@ -10,6 +13,25 @@ def draw(plot: Plot) -> Figure:
     """One pair of axes; to be called within `contactstudy.plot.style.figure_style`."""
     figure = new_figure(3.1, 5.4)
     axes = figure.add_subplot()
+    _draw(axes, plot)
+    figure_legend(figure, axes)
+    return figure
+
+
+def draw_pairs(plots: Sequence[Plot]) -> Figure:
+    """Two panels a row, all over one abscissa and with the curves of the first."""
+    rows = -(-len(plots) // 2)
+    figure = new_figure(0.6 + 1.8 * rows)
+    grid = figure.subplots(rows, 2, sharex=True, squeeze=False)
+    for axes, plot in zip(grid.flat, plots, strict=True):
+        _draw(axes, plot)
+    for axes in grid[:-1].flat:
+        axes.set_xlabel("")
+    figure_legend(figure, grid[0, 0])
+    return figure
+
+
+def _draw(axes: Axes, plot: Plot) -> None:
     labels = [c.label for c in plot.curves if c.style != "reference"]
     styles = run_styles(labels, None)
     for c in plot.curves:
@@ -21,5 +43,3 @@ def draw(plot: Plot) -> Figure:
             line |= {"marker": style.marker, "markersize": 4, "markerfacecolor": "none"}
         axes.plot(c.x, c.y, **line)
     axes.set(xscale=plot.x_scale, yscale=plot.y_scale, xlabel=plot.x_label, ylabel=plot.y_label)
-    figure_legend(figure, axes)
-    return figure

@@ -19,6 +19,7 @@ from matplotlib.ticker import FixedLocator
 from contactstudy.plot.looks import Shape, UnknownShapeError, key_of
 from contactstudy.plot.shapes import shapes_of
 
+_LOWERED = str.maketrans("rv0123456789", "ᵣᵥ₀₁₂₃₄₅₆₇₈₉")
 _INCH = 96.0
 """Pixels of a page for an inch."""
 
@@ -153,6 +154,9 @@ def _entries(*legends: Legend | None) -> dict[Any, Shape]:
 
 
 def _plain(text: str) -> str:
-    """A label on one line, without the markup of formulas: "PSD $G_{rr}$" as "PSD G_rr"."""
-    text = text.replace("\n", " ")
-    return re.sub(r"\$([^$]*)\$", lambda m: m[1].replace("{", "").replace("}", ""), text)
+    """A label on one line, without the markup of formulas: "PSD $G_{rr}$" as "PSD Gᵣᵣ"."""
+
+    def plain(formula: re.Match[str]) -> str:
+        return re.sub(r"_\{?(\w+)\}?", lambda lower: lower[1].translate(_LOWERED), formula[1])
+
+    return re.sub(r"\$([^$]*)\$", plain, text.replace("\n", " "))

@@ -180,5 +180,15 @@ def figure_legend(figure: Figure, axes: Axes) -> None:
 
 
 def legend_columns(labels: Sequence[str]) -> int:
-    """As many columns as the width holds at about 90 characters a line."""
-    return max(1, min(len(labels), 90 // (max(map(len, labels)) + 9)))
+    """As many columns as the width holds at about 90 characters a line.
+
+    Entries fill the columns one after another, and each column is as wide as its longest.
+    """
+    for columns in range(len(labels), 1, -1):
+        rows, longer = divmod(len(labels), columns)
+        sizes = [rows + (k < longer) for k in range(columns)]
+        ends = [sum(sizes[: k + 1]) for k in range(columns)]
+        own = [labels[end - size : end] for end, size in zip(ends, sizes, strict=True)]
+        if sum(max(map(len, column)) + 9 for column in own) <= 90:
+            return columns
+    return 1

@@ -44,6 +44,15 @@ def number(value: float, digits: int = 3) -> str:
     return text.replace("-", "\N{MINUS SIGN}", 1)
 
 
+def resolved(value: float, step: float) -> str:
+    """`value` with three significant digits, or as many up to six as tell differences of `step`."""
+    digits = 3
+    if np.isfinite(value * step) and value != 0.0 and step > 0.0:
+        apart = np.floor(np.log10(abs(value))) - np.floor(np.log10(step))
+        digits = int(np.clip(apart + 2, 3, 6))
+    return number(value, digits)
+
+
 def between(low: float, high: float, digits: int = 3) -> str:
     """The range of a quantity: "lies between 17.7 and 119", or "stays at 46.6" of a constant."""
     ends = number(low, digits), number(high, digits)

@@ -43,7 +43,7 @@ def abstract(results: StudyResults) -> list[str]:
         what = "refined" if data.attrs["refined"] else "varied"
         verb = "is" if len(ranges) == 1 else "are"
         told.append(
-            f"{counted(data['variant'].size, 'variant')}: {what} {verb} {' and '.join(ranges)}."
+            f"{counted(data['variant'].size, 'variant')}: {' and '.join(ranges)} {verb} {what}."
         )
     lost = len(results.failures)
     if lost:
@@ -60,7 +60,7 @@ def abstract(results: StudyResults) -> list[str]:
         counts = ", ".join(f"{n} “{verdict}”" for verdict, n in verdicts.items())
         told.append(f"Verdicts of the refinements: {counts}.")
     swept = [name for name, data in results.designs.items() if not data.attrs["refined"]]
-    first = [d.caption for d in axes.drawings(results) if swept and d.name.startswith(swept[0])]
+    first = [d.found for d in axes.drawings(results) if swept and d.name.startswith(swept[0])]
     return [" ".join(told), *first[:1]]
 
 

@@ -21,14 +21,14 @@ def content(results: StudyResults, timings: bool) -> Content:
     report = _report(results, timings)
     chapters = list(_chapters(results, timings))
     tables = parameter_tables(results)
-    alone = len(results.runs) == 1 and not results.swept
+    compared = results.reference is not None or bool(results.companions)
     data: Content = {
         "title": results.title,
         "subtitle": f"Study {results.name} · contactstudy {__version__}",
         "name": results.name,
         "abstract": _abstract(results, report, chapters),
         "conclusion": [] if results.swept else list(report.conclusion),
-        "subject-title": "What is computed" if alone else "What is compared",
+        "subject-title": "What is compared" if compared else "What is computed",
         "subject": [*paragraphs(results.description), *report.subject],
         "parameters": [*([report.sources] if report.sources else []), *tables],
         "results": list(report.parts),
@@ -61,7 +61,10 @@ def _report(results: StudyResults, timings: bool) -> Report:
     companion = [{"title": "What is varied", "blocks": subject}, *parts]
     return replace(
         own,
-        abstract=[*axes.abstract(results), *(drawing.caption for drawing in mapped)],
+        abstract=[
+            *axes.abstract(results),
+            *(drawing.found or drawing.caption for drawing in mapped),
+        ],
         subject=subject,
         parts=parts,
         as_companion=companion,

@@ -22,8 +22,6 @@ _NAMES = {
     "omega_2": "ω₂",
     "terms": "number of terms N",
     "jitter": "jittered wavenumbers",
-    "youngs_modulus": "Young's modulus",
-    "poisson_ratio": "Poisson's ratio",
     "band": "wavenumber band",
     "fade_in": "fade-in length",
     "layer": "layer below",
@@ -49,6 +47,7 @@ def parameter_tables(results: StudyResults) -> list[Block]:
                 if f"{section}.{key}" in varied:
                     shown, unit, given_by = "varied", "", "study"
                 name = _NAMES.get(key, key.replace("_", " "))
+                name = name.replace("youngs", "Young's").replace("poisson ", "Poisson's ")
                 rows.append([name, shown, unit, given_by])
             columns = ["Parameter", "Value", "Unit", "Given by"]
             made.append(table(columns, rows, f"{title}.", 1) | {"size": 8.5})

@@ -49,7 +49,7 @@ def _prefixed(size: float, unit: str) -> tuple[float, str]:
                 return step, symbol + pretty_unit(unit)
     elif unit == "s" and 0 < size < 1e-3:
         return 1e-6, "µ" + pretty_unit(unit)
-    elif unit in ("s", "m") and 0 < size < 0.1:
+    elif unit in ("s", "m", "rad") and 0 < size < 0.1:
         return 1e-3, "m" + pretty_unit(unit)
     return 1.0, pretty_unit(unit)
 

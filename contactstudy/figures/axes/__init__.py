@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from dataclasses import replace
 
 from contactstudy.figures.axes import effects, lines, maps, refined, samples
 from contactstudy.plot.drawing import Drawing
@@ -33,7 +34,7 @@ def drawings(results: StudyResults) -> list[Drawing]:
     for one in made:  # names of files are distinct
         count[one.name] += 1
         number = f"_{count[one.name]}" if count[one.name] > 1 else ""
-        found.append(Drawing(one.name + number, one.caption, one.draw))
+        found.append(replace(one, name=one.name + number))
     return found
 
 

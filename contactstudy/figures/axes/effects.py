@@ -21,7 +21,8 @@ def drawings(quantity: Shown, free: list[str]) -> list[Drawing]:
     """One figure with a panel a key."""
     found = {run: effects(quantity, run, free) for run in quantity.runs}
     draw = partial(_draw, quantity, free, found)
-    return [Drawing(quantity.file, _caption(quantity, free, found), draw)]
+    seen = _found(quantity, free, found)
+    return [Drawing(quantity.file, _caption(quantity, free), draw, seen)]
 
 
 def _draw(quantity: Shown, free: list[str], found: dict[str, dict[str, Effect]]) -> Figure:
@@ -49,18 +50,24 @@ def _draw(quantity: Shown, free: list[str], found: dict[str, dict[str, Effect]])
     return figure
 
 
-def _caption(quantity: Shown, free: list[str], found: dict[str, dict[str, Effect]]) -> str:
+def _caption(quantity: Shown, free: list[str]) -> str:
     text = (
         f"{capital(quantity.title)} over {len(free)} keys, one a panel: at each of its values the "
         f"median over all values of the other keys, dotted the range of {100 * SHARE:g} % of them. "
-        "Effects of two keys together are not seen. Largest less smallest median:"
+        "Effects of two keys together are not seen."
     )
+    if parts.failed(quantity, [free[0]]).any():
+        text += " Crosses: values at which variants could not be computed, which are left out."
+    return text
+
+
+def _found(quantity: Shown, free: list[str], found: dict[str, dict[str, Effect]]) -> str:
     told = []
     for run in quantity.runs:
         ranked = sorted(free, key=lambda key: found[run][key].change, reverse=True)
         changes = [f"{title_of(k)} {number(found[run][k].change)}" for k in ranked]
         told.append(f"{label(run)} {', '.join(changes)}".strip())
-    text += f" {'; '.join(told)}."
-    if parts.failed(quantity, [free[0]]).any():
-        text += " Crosses: values at which variants could not be computed, which are left out."
-    return text
+    return (
+        f"{capital(quantity.title)}, by how much its median changes over the values of each key: "
+        f"{'; '.join(told)}."
+    )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -21,7 +22,7 @@ from contactstudy.study.kind import Marks
 
 FEW = 4
 """Values of a second key for which there are panels or lines."""
-_CAPTION = 8  # lines that a caption describes
+_TOLD = 8  # lines that an abstract describes
 _ENDS = 4  # lines whose smallest and largest values it places
 _MARKED = (("Dashed", (0, (4, 2))), ("Dotted", (0, (1, 2))))
 MarksOf = Callable[[str], Sequence[Marks]]
@@ -32,11 +33,12 @@ def drawings(quantity: Shown, free: list[str], marks: MarksOf) -> list[Drawing]:
     """One figure."""
     long, *short = sorted(free, key=lambda dim: -quantity.data.sizes[dim])
     marked = _marked(quantity, long, marks)
-    caption = _caption(quantity, long, short)
+    caption = _caption(quantity, long)
     for mark in marked:
         told = ", ".join(number(v, 3) for v in mark.at)
         caption += f" {_style_of(marked, mark)[0]}: {mark.caption}: {told}."
-    return [Drawing(quantity.file, caption, lambda: _draw(quantity, long, short, marked))]
+    draw = partial(_draw, quantity, long, short, marked)
+    return [Drawing(quantity.file, caption, draw, _found(quantity, long, short))]
 
 
 def _style_of(marked: list[Marks], mark: Marks) -> tuple[str, Any]:
@@ -113,22 +115,30 @@ def _line(
         axes.fill_between(x, y - width, y + width, color=style.color, alpha=0.18, lw=0)
 
 
-def _caption(quantity: Shown, long: str, short: list[str]) -> str:
-    along, curves = axis_of(quantity.data, long), _curves(quantity, long, short)
-    # of many lines the places of both ends, which the table has, are left out
-    names = along.names if len(curves) <= _ENDS else None
-    one_panel = len({panel for panel, _ in curves}) == 1 and len(curves) > 1
-    told = [
-        f"{', '.join(place[one_panel:]).removeprefix(', ')} {parts.ends(values, names)}".strip(", ")
-        for place, (values, _) in list(curves.items())[:_CAPTION]
-    ]
-    text = f"{capital(quantity.title)} over the {along.title}"
+def _head(quantity: Shown, long: str) -> str:
+    text = f"{capital(quantity.title)} over the {axis_of(quantity.data, long).title}"
     if RUN in quantity.values.dims and len(quantity.runs) == 1:
         text += f", run {label(quantity.runs[0])}"
-    text += f": {'; '.join(told)}."
+    return text
+
+
+def _caption(quantity: Shown, long: str) -> str:
+    text = f"{_head(quantity, long)}."
     if over := parts.samples_of(quantity):
         n = int(np.prod([quantity.data.sizes[d] for d in over]))
         text += f" Means of {n} samples, shaded: 95 % confidence interval of the mean."
     if parts.failed(quantity, [long]).any():
         text += " Crosses: variants that could not be computed."
     return text
+
+
+def _found(quantity: Shown, long: str, short: list[str]) -> str:
+    along, curves = axis_of(quantity.data, long), _curves(quantity, long, short)
+    # of many lines the places of both ends, which the table has, are left out
+    names = along.names if len(curves) <= _ENDS else None
+    one_panel = len({panel for panel, _ in curves}) == 1 and len(curves) > 1
+    told = [
+        f"{', '.join(place[one_panel:]).removeprefix(', ')} {parts.ends(values, names)}".strip(", ")
+        for place, (values, _) in list(curves.items())[:_TOLD]
+    ]
+    return f"{_head(quantity, long)}: {'; '.join(told)}."

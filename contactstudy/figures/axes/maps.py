@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -57,13 +58,14 @@ def _panel(quantity: Shown, run: str, x: str, y: str, at: dict[str, int], title:
 def _drawing(quantity: Shown, x: str, y: str, panels: list[Panel], run: str) -> Drawing:
     along, up = axis_of(quantity.data, x), axis_of(quantity.data, y)
     told = [f"{p.title} {_ends(p.values, along, up)}".strip() for p in panels]
-    text = f"{capital(quantity.title)} over {along.title} and {up.title}"
-    text += f", run {label(run)}" if run else ""
-    text += f": {'; '.join(told)}."
+    head = f"{capital(quantity.title)} over {along.title} and {up.title}"
+    head += f", run {label(run)}" if run else ""
+    text = f"{head}."
     if any(p.failed.any() for p in panels):
         text += " Hatched: variants that could not be computed."
     name = f"{quantity.file}_{run}" if run else quantity.file
-    return Drawing(name, text, lambda: _draw(quantity, along, up, panels))
+    draw = partial(_draw, quantity, along, up, panels)
+    return Drawing(name, text, draw, f"{head}: {'; '.join(told)}.")
 
 
 def _ends(values: Array, along: AxisOf, up: AxisOf) -> str:

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from contactstudy.plot.drawing import Drawing
 from contactstudy.plot.style import figure_legend, new_figure, run_styles
-from contactstudy.plot.text import capital, number
+from contactstudy.plot.text import number
 from contactstudy.study.axes.axis import axis_of, title_of
 from contactstudy.study.axes.convergences import Line, convergences
 from contactstudy.study.axes.refinement import sizes
@@ -25,7 +25,7 @@ def drawings(quantity: Shown) -> list[Drawing]:
     lines = convergences(quantity)[:_LINES]
     if not lines:
         return []
-    return [Drawing(quantity.file, _caption(quantity, lines), lambda: _draw(quantity, lines))]
+    return [Drawing(quantity.file, _caption(quantity), lambda: _draw(quantity, lines))]
 
 
 def _draw(quantity: Shown, lines: list[Line]) -> Figure:
@@ -55,16 +55,10 @@ def _draw(quantity: Shown, lines: list[Line]) -> Figure:
     return figure
 
 
-def _caption(quantity: Shown, lines: list[Line]) -> str:
+def _caption(quantity: Shown) -> str:
     expected = quantity.data.attrs.get("expected_order")
-    told = [
-        f"{line.name} {line.order_text}, band ± {number(line.uncertainty, 2)} at the finest "
-        f"({line.verdict})".strip()
-        for line in lines
-    ]
     text = (
         f"Refinement of the {title_of(quantity.data.attrs['refined'])}: distance of the quantity "
-        "from its limit (where there is no order, from the finest), and lines of the fitted order. "
+        "from its limit (where there is no order, from the finest), and lines of the fitted order."
     )
-    text += f"Expected order {number(expected, 2)}. " if expected else ""
-    return text + capital("; ".join(told)) + "."
+    return text + (f" Expected order {number(expected, 2)}." if expected else "")

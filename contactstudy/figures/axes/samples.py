@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
+from contactstudy.arrays import Array
 from contactstudy.compare.statistics import running, spread
 from contactstudy.figures.axes import parts
 from contactstudy.plot.drawing import Drawing
 from contactstudy.plot.style import figure_legend, new_figure
-from contactstudy.plot.text import capital, label, number
+from contactstudy.plot.text import capital, label, number, resolved
 from contactstudy.study.axes.dataset import FAILURE
 from contactstudy.study.axes.shown import Shown
 
@@ -19,36 +22,47 @@ def drawings(quantity: Shown) -> list[Drawing]:
     """One figure for a sample of two or more."""
     if quantity.data["variant"].size < 2:
         return []
-    return [Drawing(quantity.file, _caption(quantity), lambda: _draw(quantity))]
+    draw = partial(_draw, quantity)
+    return [Drawing(quantity.file, _caption(quantity), draw, _found(quantity))]
 
 
 def _caption(quantity: Shown) -> str:
-    told = []
-    for run in quantity.runs:
-        s = spread(quantity.of_run(run).values)
-        told.append(
-            f"{label(run)} mean {number(s.mean)} ± {number(s.half_width, 2)}, from "
-            f"{number(s.low)} to {number(s.high)}".strip()
-        )
-    n = quantity.data["variant"].size
     text = (
-        f"{capital(quantity.title)} in a sample of {n}: left, the share of the sample below each "
-        "value; right, the mean of the first n with its 95 % confidence interval (Student). "
-        f"{capital('; '.join(told))}."
+        f"{_head(quantity)}: left, the share of the sample up to each value; right, the mean of "
+        "the first n with its 95 % confidence interval (Student)."
     )
     lost = int((quantity.data[FAILURE] != "").sum())
     return text + (f" {lost} of the variants could not be computed." if lost else "")
 
 
+def _found(quantity: Shown) -> str:
+    told = [f"{label(run)} {_range(quantity.of_run(run).values)}".strip() for run in quantity.runs]
+    return f"{_head(quantity)}: {'; '.join(told)}."
+
+
+def _head(quantity: Shown) -> str:
+    return f"{capital(quantity.title)} in a sample of {quantity.data['variant'].size}"
+
+
+def _range(values: Array) -> str:
+    s = spread(values)
+    if s.constant:
+        return f"{number(s.mean, 4)} throughout"
+    mean, low, high = (resolved(v, s.half_width) for v in (s.mean, s.low, s.high))
+    return f"mean {mean} ± {number(s.half_width, 2)}, from {low} to {high}"
+
+
 def _draw(quantity: Shown) -> Figure:
-    figure = new_figure(3.3)
+    figure = new_figure(2.6)
     left, right = figure.subplots(1, 2)
     every = quantity.values.values
     for run, style in parts.styles(quantity).items():
         values = quantity.of_run(run).values.ravel()
         ordered = np.sort(values[np.isfinite(values)])
-        share = np.arange(1, len(ordered) + 1) / len(ordered)
-        left.step(ordered, share, where="post", label=label(run) or None, **style.line)
+        share = np.arange(len(ordered) + 1) / len(ordered)
+        left.step(
+            np.r_[ordered[:1], ordered], share, where="post", label=label(run) or None, **style.line
+        )
         n, mean, half = running(values)
         right.plot(n, mean, **style.line)
         right.fill_between(n, mean - half, mean + half, color=style.color, alpha=0.18, lw=0)

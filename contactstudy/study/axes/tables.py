@@ -10,7 +10,7 @@ import numpy as np
 
 from contactstudy.arrays import Array
 from contactstudy.compare.statistics import spread
-from contactstudy.plot.text import capital, label, number
+from contactstudy.plot.text import capital, label, number, resolved
 from contactstudy.study.axes.axis import axis_of, title_of
 from contactstudy.study.axes.convergences import convergences
 from contactstudy.study.axes.effects import effects, too_many
@@ -80,9 +80,14 @@ def _sample(design: str, quantities: list[Shown]) -> TableData:
     for quantity in quantities:
         for run in quantity.runs:
             s = spread(quantity.of_run(run).values)
-            cells = (s.mean, s.half_width, s.deviation, s.low, s.high)
-            rows.append([quantity.title, label(run), str(s.n), *(_cell(c) for c in cells)])
-    columns = ["quantity", "run", "n", "mean", "± 95 %", "deviation", "least", "largest"]
+            widths = (s.half_width, s.deviation)
+            if s.constant:
+                cells = [_cell(s.mean, 4), "0", "0", *[_cell(s.mean, 4)] * 2]
+            else:
+                ends = [resolved(v, s.half_width) for v in (s.mean, s.low, s.high)]
+                cells = [ends[0], *(_cell(w, 2) for w in widths), *ends[1:]]
+            rows.append([quantity.title, label(run), str(s.n), *cells])
+    columns = ["quantity", "run", "samples", "mean", "± 95 %", "deviation", "least", "largest"]
     return TableData(design, "Spread over the sample", columns, rows, 2)
 
 

@@ -8,6 +8,7 @@ from PIL import Image
 
 from contactstudy.figures.bridge_picture import drawings, write_animation
 from contactstudy.figures.bridge_scene import Scene, _rounded
+from contactstudy.figures.deck_damping import bridge_of
 from contactstudy.plot.style import figure_style
 from contactstudy.study.kinds.passage.execution import execute_run
 from contactstudy.study.kinds.passage.reading import parse_study
@@ -55,9 +56,15 @@ def test_the_scene_shows_the_bridge_and_the_train_where_they_are(results):
     assert np.ptp(body[:, 0]) == pytest.approx(25.0 - 0.5)
 
 
-def parse_bridge(results):
-    from contactstudy.figures.deck_damping import bridge_of
+def test_a_short_span_leaves_room_on_the_page(results):
+    track = dict(results.config["track"]) | {"spans": [5.0] * 6}
+    bridge = bridge_of(track)
+    with figure_style():
+        figure = Scene(results.runs["one"], bridge).draw()
+    assert figure.get_figheight() < 6.0  # inch; the page holds 9.7 with heading and caption
 
+
+def parse_bridge(results):
     return bridge_of(results.config["track"])
 
 

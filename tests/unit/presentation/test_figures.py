@@ -1,5 +1,7 @@
 """Figures: axes, units, equal bytes, and optional data that is not there."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -311,4 +313,9 @@ def test_a_picture_of_the_model(results):
         texts = {t.get_text() for t in made.draw().axes[0].texts}
     assert {"X", "Y", "Z", "rail", "pad", "sleeper", "wheel", "300 km/h", "0.6 m"} <= texts
     assert {"point contact", "surface contact"} <= texts
-    assert "discrete supports" in made.caption
+    assert "an irregular rail on discrete supports" in made.caption
+    config = {**results.config, "irregularity": {"spectrum": "smooth", "rail_defect": "none"}}
+    (made,) = model.drawings(replace(results, config=config))
+    with figure_style():
+        smooth = {t.get_text() for t in made.draw().axes[0].texts}
+    assert texts - smooth == {"$r_v(X)$"} and "a smooth rail" in made.caption

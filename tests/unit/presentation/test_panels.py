@@ -37,7 +37,7 @@ def test_lines_keep_their_values_looks_and_names():
         axes.plot(X, X, color="#ff0000", ls="--", alpha=0.3)
         axes.axvline(2.0, color="#123456")
         axes.axvspan(1.0, 3.0, color="#eeeeee")
-        axes.set(xlabel="Position $X_a$", ylabel="Force\n(kN)", yscale="log", xlim=(0.5, 4.0))
+        axes.set(xlabel="Position $X_{rr}$", ylabel="Force\n(kN)", yscale="log", xlim=(0.5, 4.0))
         figure.legend(*axes.get_legend_handles_labels(), loc="outside upper center")
 
     found = shown(draw)
@@ -53,7 +53,7 @@ def test_lines_keep_their_values_looks_and_names():
     assert points["label"] == "second" and np.array_equal(points["y"], np.cos(X))
     assert steps["x"].tolist() == [0, 1, 1, 2, 2] and steps["y"].tolist() == [3, 3, 4, 4, 5]
     assert "label" not in steps
-    assert (panel.x.label, panel.y.label) == ("Position X_a", "Force (kN)")
+    assert (panel.x.label, panel.y.label) == ("Position Xᵣᵣ", "Force (kN)")
     assert panel.y.logarithmic and (panel.x.low, panel.x.high) == (0.5, 4.0)
 
 

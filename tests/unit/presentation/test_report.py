@@ -259,6 +259,7 @@ def test_parameters_say_whether_the_study_set_them(made):
         ("wheel_column", "", ("wheel_column", "")),
         ([0.0, 0.01], "m", ("0, 10", "mm")),
         ([18.0, 18.3], "m", ("18, 18.3", "m")),
+        ([0.0, 0.024], "rad", ("0, 24", "mrad")),
         ([0.08, 20.0], "rad/m", ("0.08, 20", "rad/m")),
     ],
 )

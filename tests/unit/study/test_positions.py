@@ -215,7 +215,7 @@ def test_commands(study, tmp_path, capsys):
         made = subprocess.run([reader, "-layout", out / "report.pdf", "-"], capture_output=True)
         text = made.stdout.decode()
         assert "A cylinder on the crown" in text and "peak (MPa)" in text
-    assert (out / "figures" / "positions_area.png").is_file()
+    assert (out / "figures" / "positions.png").is_file()
     assert cli.main(["run", str(study), "--out", str(out), "--set", "positions.lod=5"]) == 2
     assert "positions.lod: unknown key" in capsys.readouterr().err
     assert cli.main(["studies"]) == 0

@@ -9,7 +9,10 @@ from contactstudy.study.kinds.passage.execution import execute_run
 from contactstudy.study.kinds.passage.held_against import held_against, to_dataset
 from contactstudy.study.kinds.passage.inputs import read_inputs, work
 from contactstudy.study.kinds.passage.record import MeasuredRecord
-from contactstudy.study.kinds.passage.report.measured_table import measured_tables
+from contactstudy.study.kinds.passage.report.measured_table import (
+    measured_sentences,
+    measured_tables,
+)
 from contactstudy.study.loading import load_study
 from contactstudy.study.results import StudyResults
 
@@ -123,6 +126,8 @@ def test_record_and_run_are_drawn_over_each_other(tmp_path, run):
     (drawing,) = figure.drawings(results)
     assert "pad: station displacement at 6 m" in drawing.caption
     assert "record shifted by −0.2000 s" in drawing.caption and "scale 0.8" in drawing.caption
+    (told,) = measured_sentences(results)
+    assert "with one scale and one shift" in told and "one has a correlation of 1.00" in told
     drawn = drawing.draw()
     panels = drawn.axes
     assert len(panels) == 2

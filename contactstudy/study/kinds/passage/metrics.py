@@ -42,7 +42,14 @@ import numpy as np
 from contactstudy.arrays import Array
 from contactstudy.compare import norms
 from contactstudy.compare.bands import level_differences
-from contactstudy.compare.signals import WITHOUT_STATIC, at_rest, position, same_way, speed
+from contactstudy.compare.signals import (
+    WITHOUT_STATIC,
+    at_rest,
+    carries,
+    position,
+    same_way,
+    speed,
+)
 from contactstudy.study.kinds.passage.comfort import comfort_of
 from contactstudy.study.kinds.passage.held_against import held_against
 from contactstudy.study.kinds.passage.safety import safety_of
@@ -165,7 +172,7 @@ def compare_runs(
     return {
         name: _compare_signals(run, reference, name, start, bands)
         for name in (*SIGNALS, *OF_DECK)
-        if name in run and name in reference
+        if carries(run, name) and carries(reference, name)
     }
 
 

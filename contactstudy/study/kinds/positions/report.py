@@ -3,9 +3,9 @@
 from functools import partial
 
 from contactstudy.plot.curves import Curve, Plot, curve
-from contactstudy.plot.draw import draw
+from contactstudy.plot.draw import draw_pairs
 from contactstudy.plot.drawing import Drawing
-from contactstudy.plot.text import number
+from contactstudy.plot.text import between, number
 from contactstudy.report.blocks import Block, figure, table, text
 from contactstudy.report.quantity import fixed
 from contactstudy.study.kind import Part, Report
@@ -14,10 +14,10 @@ from contactstudy.study.results import StudyResults
 
 _DRAWN = ("y", "approach", "peak_pressure", "area")
 _LABELS = {
-    "y": ("Contact position", "Contact position on the rail (mm)"),
-    "approach": ("Approach", "Approach (µm)"),
-    "peak_pressure": ("Peak pressure", "Peak pressure (MPa)"),
-    "area": ("Contact area", "Contact area (mm²)"),
+    "y": ("contact position", "Contact position on the rail (mm)"),
+    "approach": ("approach", "Approach (µm)"),
+    "peak_pressure": ("peak pressure", "Peak pressure (MPa)"),
+    "area": ("contact area", "Contact area (mm²)"),
 }
 _METHOD = (
     "A rigid-body position of the wheelset places both wheels; each wheel is then pressed straight "
@@ -33,22 +33,23 @@ _METHOD = (
 
 
 def drawings(results: StudyResults) -> list[Drawing]:
-    """A figure a variable, with the curves of all wheels; none of a study with axes."""
-    plots = {name: _plot(results, name) for name in _DRAWN if results.runs}
-    return [
-        Drawing(f"positions_{name}", plot.caption, partial(draw, plot))
-        for name, plot in plots.items()
-    ]
+    """A panel a variable, with the curves of all wheels; none of a study with axes."""
+    if not results.runs:
+        return []
+    plots = [_plot(results, name) for name in _DRAWN]
+    told = ", ".join(plot.caption for plot in plots)
+    caption = f"Over the lateral shift of the wheelset: {told}."
+    return [Drawing("positions", caption, partial(draw_pairs, plots))]
 
 
 def report(results: StudyResults, timings: bool = False) -> Report:
-    """How positions are computed, a table a wheel, and the figures."""
+    """How positions are computed, the figure, and a table a wheel."""
     parts: list[Part] = [
-        {"title": f"{side.capitalize()} wheel", "blocks": [_patches(results, side)]}
-        for side in results.runs
+        {"title": "Over the lateral shift", "blocks": [figure(made.name, made.caption)]}
+        for made in drawings(results)
     ]
-    if figures := [figure(made.name, made.caption) for made in drawings(results)]:
-        parts.append({"title": "Over the lateral shift", "blocks": figures})
+    for side in results.runs:
+        parts.append({"title": f"{side.capitalize()} wheel", "blocks": [_patches(results, side)]})
     abstract = [_abstract(results)] if results.runs else []
     return Report(abstract, parts, subject=[text(_METHOD)])
 
@@ -56,18 +57,15 @@ def report(results: StudyResults, timings: bool = False) -> Report:
 def _abstract(results: StudyResults) -> str:
     sides = " and ".join(results.runs)
     count = len(results.config["positions"]["lateral"])
-    lists = [f"{number(low, 4)} to {number(high, 4)} {unit}" for low, high, unit in (
-        (*_range(results, "approach", 1e6), "µm"),
-        (*_range(results, "peak_pressure", 1e-6), "MPa"),
-        (*_range(results, "area", 1e6), "mm²"),
-    )]  # fmt: skip
     load = number(1e-3 * results.config["positions"]["load"], 4)
     patches = sum(run.sizes["row"] for run in results.runs.values())
     return (
         f"A wheelset is pressed on its rails at {count} position{'s' if count > 1 else ''} of "
         f"lateral shift and yaw ({sides} wheel{'s' if len(results.runs) > 1 else ''}), with "
-        f"{load} kN on each wheel. In the {patches} contact patches the approach is {lists[0]}, "
-        f"the peak pressure {lists[1]} and the area {lists[2]}."
+        f"{load} kN on each wheel. In the {patches} contact patches the approach "
+        f"{between(*_range(results, 'approach', 1e6), 4)} µm, the peak pressure "
+        f"{between(*_range(results, 'peak_pressure', 1e-6), 4)} MPa and the area "
+        f"{between(*_range(results, 'area', 1e6), 4)} mm²."
     )
 
 
@@ -87,7 +85,10 @@ def _patches(results: StudyResults, side: str) -> Block:
          for name, (_, scale, decimals) in COLUMNS.items()]
         for k in range(own.sizes["row"])
     ]  # fmt: skip
-    caption = "Contact patches; y is the contact position on the rail, positive to the field side."
+    caption = (
+        f"Contact patches of the {side} wheel; y is the contact position on the rail, positive to "
+        "the field side."
+    )
     return table(columns, rows, caption, 0) | {"size": 8}
 
 
@@ -103,8 +104,7 @@ def _plot(results: StudyResults, name: str) -> Plot:
             curves.append(curve(f"{side} wheel, further patches", x[~first], y[~first], "points"))
     low, high = _range(results, name, scale)
     return Plot(
-        f"{words} over the lateral shift of the wheelset, from "
-        f"{number(low, 4)} to {number(high, 4)} {heading.rpartition(' ')[2]}.",
+        f"{words} from {number(low, 4)} to {number(high, 4)} {heading.rpartition(' ')[2]}",
         "Lateral shift (mm)",
         axis,
         tuple(curves),

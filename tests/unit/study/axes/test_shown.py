@@ -113,7 +113,7 @@ def test_samples_are_counted_in_whole_numbers(swept):
 def test_figures_and_their_captions(swept, text, said):
     results = swept(f"[sweep]\n{text}\n")
     made = drawings(results)
-    assert made and said in " ".join(d.caption for d in made)
+    assert made and said in " ".join(f"{d.found} {d.caption}" for d in made)
     (part,) = parts(results)
     files = [b["file"] for b in part["blocks"] if b["kind"] == "figure"]
     assert files == [f"figures/{d.name}.pdf" for d in made]
@@ -132,7 +132,7 @@ def test_four_keys_have_their_effects(swept):
     results = swept(FOUR)
     data = results.designs["sweep"]["largest"].sel(run="power")
     (made,) = (d for d in drawings(results))
-    assert "over 4 keys, one a panel" in made.caption and made.caption.endswith("word 0.")
+    assert "over 4 keys, one a panel" in made.caption and made.found.endswith("word 0.")
     with figure_style():
         figure = made.draw()
     panels = [axes for axes in figure.axes if axes.get_visible()]

@@ -13,12 +13,13 @@ from contactstudy.study.kinds.passage.report.abstract import GRADES, abstract
 from contactstudy.study.kinds.passage.report.comfort_table import comfort_table
 from contactstudy.study.kinds.passage.report.conclusion import conclusion
 from contactstudy.study.kinds.passage.report.deck_table import deck_table
+from contactstudy.study.kinds.passage.report.error_tables import error_tables
 from contactstudy.study.kinds.passage.report.measured_table import measured_tables
 from contactstudy.study.kinds.passage.report.rungs import rung_tables
 from contactstudy.study.kinds.passage.report.safety_table import safety_table
 from contactstudy.study.kinds.passage.report.stress_table import stress_tables
 from contactstudy.study.kinds.passage.report.support_table import support_table
-from contactstudy.study.kinds.passage.report.tables import error_tables, passing_table, run_table
+from contactstudy.study.kinds.passage.report.tables import passing_table, run_table
 from contactstudy.study.results import StudyResults
 
 _NOT_GENERATED = ("smooth", "sinusoid", "measured", None)
@@ -78,7 +79,10 @@ def report(results: StudyResults, timings: bool = False) -> Report:
 
 def _topics(results: StudyResults) -> list[str]:
     """Sections of the model that the study needs."""
-    found = {str(run.get("solver")) for run in results.config.get("runs", {}).values()}
+    runs = results.config.get("runs", {}).values()
+    found = {str(run.get("solver")) for run in runs}
+    if "surface" in found or any(run.get("rail") == "solid" for run in runs):
+        found.add("solid")
     if found:
         found.add("motion")
     if results.config.get("irregularity", {}).get("spectrum") not in _NOT_GENERATED:

@@ -13,6 +13,7 @@ from contactstudy.plot.text import capital, exact, label, listing, number
 from contactstudy.report.quantity import grouped, percent
 from contactstudy.study.kinds.passage.report import lost, rungs
 from contactstudy.study.kinds.passage.report.conclusion import conclusion
+from contactstudy.study.kinds.passage.report.measured_table import measured_sentences
 from contactstudy.study.kinds.passage.report.metrics import between, of_run
 from contactstudy.study.kinds.passage.report.naming import OUR_READING, model, papers_scheme
 from contactstudy.study.results import StudyResults
@@ -42,7 +43,7 @@ def grade(error: float) -> str:
 
 def abstract(results: StudyResults) -> list[str]:
     """Paragraphs of the abstract; what the study does not compare is not spoken of."""
-    paragraphs = [_case(results)]
+    paragraphs = [_case(results), *measured_sentences(results)]
     if _errors(results):
         paragraphs += rungs.sentences(results) or [_verdict(results)]
         paragraphs.append(_cost(results))
@@ -182,9 +183,11 @@ def _cost(results: StudyResults) -> str:
     theirs = int(of_run(results, reference)["dofs"])
     ours = [int(of_run(results, name)["dofs"]) for name in _errors(results)]
     low, high = min(ours), max(ours)
+    models = "models" if len(ours) > 1 else "model"
     span = grouped(low) if low == high else f"{grouped(low)} to {grouped(high)}"
     return (
-        f"The reference has {grouped(theirs)} degrees of freedom, what is compared with it {span}. "
+        f"The reference has {grouped(theirs)} degrees of freedom, the {models} compared with "
+        f"it {span}. "
         "All error figures are ours, not the paper's."
     )
 

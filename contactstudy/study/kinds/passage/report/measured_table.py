@@ -1,7 +1,7 @@
 """Tables of runs held against a measured record."""
 
-from contactstudy.figures.measured import GROUP, fitted
-from contactstudy.plot.text import label, number
+from contactstudy.figures.measured import GROUP, fitted, spread
+from contactstudy.plot.text import label, listing, number
 from contactstudy.report.blocks import Block, table, text
 from contactstudy.study.results import StudyResults
 
@@ -13,6 +13,26 @@ EXPLAINED = (
     "relative L2 difference. Magnitude and phase: Sprague and Geers. Timing: by how much later the "
     "computed channel comes once the record is shifted."
 )
+
+
+def measured_sentences(results: StudyResults) -> list[str]:
+    """For the abstract: how well each run agrees, and what was fitted."""
+    told = []
+    for run, one in fitted(results).items():
+        channels = one["channels"].values()
+        correlations = [c["correlation"] for c in channels]
+        errors = [100 * c["normalised_error"] for c in channels]
+        told.append(
+            f"{label(run)} has a correlation of {spread(correlations)} and a normalised error of "
+            f"{spread(errors, 2)} %"
+        )
+    if not told:
+        return []
+    known = "one scale and " if results.config.get(GROUP, {}).get("scale") == "fitted" else ""
+    return [
+        f"Held against the measured record, with {known}one shift of its clock for all channels, "
+        f"{listing(told)}."
+    ]
 
 
 def measured_tables(results: StudyResults) -> list[Block]:

@@ -3,21 +3,18 @@
 from collections.abc import Mapping
 from itertools import pairwise
 
-from contactstudy.compare.bands import share_above
-from contactstudy.compare.signals import values
 from contactstudy.figures.ladder import DYNAMIC, IRREGULARITY, PARTS, Rung, ladder
 from contactstudy.figures.signals import DECK, SIGNALS, Signal
 from contactstudy.plot.text import label
 from contactstudy.report.blocks import Block, table
 from contactstudy.report.quantity import rounded
+from contactstudy.study.kinds.passage.report.error_tables import fast_note
 from contactstudy.study.results import StudyResults
 
 _LARGE = 3.0
 """A step that exceeds the error of the rung above so many times is called decisive."""
 _WITH_DECK = ("contact_force", "wheel_acceleration")
 """Signals that are shown beside those of decks; a page holds no more columns."""
-_FAST = 2e3
-"""Where beams and meshes of the usual sizes part [Hz]."""
 
 
 def sentences(results: StudyResults) -> list[str]:
@@ -96,26 +93,11 @@ def rung_tables(results: StudyResults) -> list[Block]:
                 f"Relative L₂ difference from {words} in per cent; of motions the dynamic part."
             )
             tables.append(
-                table(columns, rows, caption, note=_fast(results) if tables and not decked else "")
+                table(
+                    columns, rows, caption, note=fast_note(results) if tables and not decked else ""
+                )
             )
     return tables
-
-
-def _fast(results: StudyResults) -> str:
-    """What to think of the rail's acceleration where most of it is fast."""
-    top = results.runs[str(results.reference)]
-    if "rail_acceleration" not in top:
-        return ""
-    time_step = float(top["time"][1] - top["time"][0])
-    share = share_above(values(top, "rail_acceleration"), time_step, _FAST)
-    if share < 0.5:
-        return ""
-    return (
-        f"{rounded(100 * share, 2)} % of the variance of the rail's acceleration in "
-        f"{label(str(results.reference))} lie above {_FAST / 1e3:g} kHz. There the spread of the "
-        "load over the rail and the length of the elements decide, so that these differences say "
-        "little of the force."
-    )
 
 
 def _heading(signal: Signal, part: str) -> str:

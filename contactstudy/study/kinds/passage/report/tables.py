@@ -4,13 +4,11 @@ import re
 from collections.abc import Mapping
 from typing import Any
 
-from contactstudy.figures.ladder import IRREGULARITY
 from contactstudy.figures.passing_components import all_passing, component
-from contactstudy.figures.signals import SIGNALS, Signal
 from contactstudy.plot.text import label
 from contactstudy.report.blocks import Block, table
-from contactstudy.report.quantity import fixed, grouped, percent, quantity, rounded
-from contactstudy.study.kinds.passage.report.metrics import between, of_run
+from contactstudy.report.quantity import grouped, quantity, rounded
+from contactstudy.study.kinds.passage.report.metrics import of_run
 from contactstudy.study.results import StudyResults
 
 # The template sets these as symbols.
@@ -91,47 +89,6 @@ def run_table(results: StudyResults, timings: bool, noted: bool = True) -> Block
     )
     reference = f" Reference: {label(results.reference)}." if results.reference else ""
     return table(columns, rows, f"Runs and their sizes.{reference}", 3, note if noted else "")
-
-
-def error_tables(results: StudyResults) -> list[Block]:
-    """For each signal the errors of all runs against the reference."""
-    made = []
-    for signal in SIGNALS:
-        found = {
-            name: errors
-            for name in results.runs
-            if (errors := between(results, name, signal.name)) is not None
-        }
-        twins = any(IRREGULARITY in errors for errors in found.values())
-        rows = [_error_row(name, errors, signal, twins) for name, errors in found.items()]
-        if rows:
-            columns = ["Run", "L₂ total (%)", "L₂ dynamic (%)"]
-            columns += ["L₂ of irregularity (%)"] if twins else []
-            columns += [f"Largest ({signal.unit})", f"RMS ({signal.unit})"]
-            columns += ["Correlation", "Magnitude", "Phase", "Both"]
-            made.append(
-                table(
-                    columns,
-                    rows,
-                    f"{signal.label}: errors against {label(str(results.reference))}.",
-                )
-                | {"size": 8}
-            )
-    return made
-
-
-def _error_row(name: str, errors: Mapping[str, Any], signal: Signal, twins: bool) -> list[str]:
-    sprague = errors.get("sprague_geers_dynamic", {})
-    return [
-        label(name),
-        percent(errors["relative_l2"], 3),
-        percent(errors["relative_l2_dynamic"], 3),
-        *([percent(errors.get(IRREGULARITY), 3)] if twins else []),
-        rounded(signal.scale * errors["linf"]),
-        rounded(signal.scale * errors["rms"]),
-        fixed(errors.get("correlation"), 5),
-        *(fixed(sprague.get(key), 3) for key in ("M", "P", "C")),
-    ]
 
 
 def passing_table(results: StudyResults) -> Block | None:
