@@ -30,12 +30,16 @@ starts, and no difference between the models.
 
 
 _OF_WHEEL = ("wheel_displacement", "wheel_acceleration")
-_MOVING_FORCE = "moving force"
 
 
 def carries(run: xr.Dataset, name: str) -> bool:
     """Whether a run has a signal; a moving force has no wheel that could move."""
-    return name in run and not (name in _OF_WHEEL and run.attrs.get("law") == _MOVING_FORCE)
+    return name in run and not (name in _OF_WHEEL and is_moving_force(run))
+
+
+def is_moving_force(run: xr.Dataset) -> bool:
+    """Whether a run's wheels are constant forces."""
+    return bool(run.attrs.get("law") == "moving force")
 
 
 def at_rest(run: xr.Dataset, name: str) -> Array:

@@ -18,7 +18,6 @@ from contactstudy.figures.signals import (
     leaves_track,
     others,
     styles,
-    wheel_note,
 )
 from contactstudy.plot.drawing import Drawing
 from contactstudy.plot.style import BLACK, SHADE, LineStyle, figure_legend, new_figure
@@ -36,10 +35,8 @@ _CELLS = 160
 """Parts of the way in each of which a band shows the range of a run that swings quickly."""
 _QUICK = 0.3
 """A run swings quickly if the median range in such a part is more than this of all its range."""
-_BAND = 0.35
-"""Opacity of such a band."""
 _LOUD = 2.5
-"""So many times the next largest difference, at most, the panel of differences shows."""
+"""From so many times the next largest difference on, a run is left out of the panel of these."""
 
 
 def drawings(results: StudyResults) -> list[Drawing]:
@@ -57,10 +54,6 @@ def _having(results: StudyResults, signal: Signal) -> list[str]:
     if not known or not has_signal(results.runs[str(results.reference)], signal.name):
         return []
     return [name for name in known if has_signal(results.runs[name], signal.name)]
-
-
-_FAINT = 0.3
-"""Opacity of the run that goes beyond that panel, lest it covers the others."""
 
 
 def _draw(results: StudyResults, signal: Signal) -> Figure:
@@ -113,27 +106,23 @@ def _differences(axes: Axes, results: StudyResults, signal: Signal) -> None:
         found[name] = x, (theirs - ours) * signal.scale
     loud_first = sorted(found, key=lambda name: -float(np.abs(found[name][1]).max()))
     limit = shown_limit([float(np.abs(found[name][1]).max()) for name in loud_first])
-    for k, name in enumerate(loud_first):
-        faint = _FAINT if limit is not None and k == 0 else 1.0
-        _difference(axes, *found[name], styles(results)[name], 2.0 + 0.01 * k, faint)
+    for k, name in enumerate(loud_first[limit is not None :]):
+        _difference(axes, *found[name], styles(results)[name], 2.0 + 0.01 * k)
     if limit is not None:
         axes.set_ylim(-limit, limit)
     axes.margins(x=0)
 
 
-def _difference(
-    axes: Axes, x: Array, y: Array, style: LineStyle, order: float, opacity: float
-) -> None:
+def _difference(axes: Axes, x: Array, y: Array, style: LineStyle, order: float) -> None:
     if not swings_quickly(y):
-        axes.plot(x, y, zorder=order, alpha=opacity, **style.line)
+        axes.plot(x, y, zorder=order, **style.line)
         return
     # where it can be zoomed, the line itself shows
-    axes.plot(x, y, visible=False, zorder=order, alpha=opacity, **style.line)
+    axes.plot(x, y, visible=False, zorder=order, **style.line)
     edges = np.linspace(0, len(y), _CELLS + 1).astype(int)[:-1]
     low, high = np.minimum.reduceat(y, edges), np.maximum.reduceat(y, edges)
     middle = x[np.minimum(edges + len(y) // (2 * _CELLS), len(x) - 1)]
-    alpha = _BAND * opacity
-    axes.fill_between(middle, low, high, color=style.color, alpha=alpha, lw=0, zorder=order)
+    axes.fill_between(middle, low, high, color=style.color, alpha=0.35, lw=0, zorder=order)
 
 
 def swings_quickly(y: Array) -> bool:
@@ -215,5 +204,7 @@ def _caption(results: StudyResults, signal: Signal) -> str:
         for _, n in largest
     )
     if shown_limit([-size for size, _ in whole]) is not None:
-        told.append(f"{label(whole[0][1])} goes beyond the panel of differences.")
-    return " ".join(told) + wheel_note(results)
+        told.append(
+            f"{label(whole[0][1])} is left out of the panel of differences, beyond which it goes."
+        )
+    return " ".join(told)

@@ -11,7 +11,7 @@ from contactstudy.arrays import Array
 from contactstudy.figures.axes import parts
 from contactstudy.plot.drawing import Drawing
 from contactstudy.plot.style import BLACK, GREY, figure_legend, new_figure, run_styles
-from contactstudy.plot.text import label, number
+from contactstudy.plot.text import between, label, number
 from contactstudy.study.axes.axis import axis_of
 from contactstudy.study.results import StudyResults
 
@@ -80,7 +80,13 @@ def drawings(results: StudyResults) -> list[Drawing]:
         f"press. Marked: the best constant of each curve ({best}). Dashed: the tangent; dotted: "
         "the secant of Hertz's law, two thirds of it."
     )
-    return [Drawing("contact_stiffness", text, lambda: _draw(found))]
+    largest = [float(c.error[-1]) for c in found]
+    seen = (
+        f"The constant contact stiffness with the least error of the contact force: {best}. With "
+        f"the largest, {number(float(found[0].k_r[-1]))} tangents, the error "
+        f"{between(min(largest), max(largest))} %."
+    )
+    return [Drawing("contact_stiffness", text, lambda: _draw(found), seen)]
 
 
 def _draw(found: list[Curve]) -> Figure:

@@ -7,7 +7,7 @@ import numpy as np
 
 def label(name: str) -> str:
     """Name of a run or key as it is printed; symbols like k_r stay."""
-    return name if name.find("_") == 1 == len(name) - 2 else name.replace("_", " ")
+    return re.sub(r"\bk r\b", "k_r", name.replace("_", " ")) if len(name) != 3 else name
 
 
 def counted(number: int, word: str) -> str:

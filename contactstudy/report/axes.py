@@ -91,11 +91,15 @@ def _observed(results: StudyResults) -> list[str]:
 def subject(results: StudyResults) -> list[Block]:
     """The runs as the study has them, and the keys that are varied."""
     runs = results.config.get("runs", {})
-    listed = [
-        f"{label(name)}: "
-        + ", ".join(_told(results, f"runs.{name}.{k}", v) for k, v in chosen(results, run).items())
-        for name, run in runs.items()
-    ]
+    own = {name: chosen(results, run) for name, run in runs.items()}
+    shared = _shared(list(own.values()))
+    listed = []
+    for name, keys in own.items():
+        told = [_told(results, name, k, v) for k, v in keys.items() if k not in shared]
+        listed.append(f"{label(name)}: {', '.join(told)}")
+    if shared:
+        told = [_told(results, next(iter(own)), k, v) for k, v in shared.items()]
+        listed.append(f"all runs: {', '.join(told)}")
     rows = []  # of keys that several designs vary alike, one
     for name, data in results.designs.items():
         for key, how in _how(data).items():
@@ -104,6 +108,14 @@ def subject(results: StudyResults) -> list[Block]:
     columns = ["Key", "Values", "How"]
     varied = table(columns, rows, "Keys that are varied.", 3) | {"size": 8.5}
     return [*([bullets(listed)] if listed else []), varied]
+
+
+def _shared(runs: list[dict[str, Any]]) -> dict[str, Any]:
+    """What all runs have alike, if each has something of its own beside."""
+    if len(runs) < 2:
+        return {}
+    same = {k: v for k, v in runs[0].items() if all((k, v) in r.items() for r in runs)}
+    return same if all(len(run) > len(same) for run in runs) else {}
 
 
 def chosen(results: StudyResults, run: Mapping[str, Any]) -> dict[str, Any]:
@@ -117,9 +129,9 @@ def chosen(results: StudyResults, run: Mapping[str, Any]) -> dict[str, Any]:
     return {k: v for k, v in run.items() if k in told or origin(known.get(k), v) != "default"}
 
 
-def _told(results: StudyResults, key: str, value: Any) -> str:
-    shown = " ".join(quantity(value, results.units.get(key, ""))).strip()
-    return f"{label(key.rpartition('.')[2])} {label(shown)}"
+def _told(results: StudyResults, run: str, key: str, value: Any) -> str:
+    shown = " ".join(quantity(value, results.units.get(f"runs.{run}.{key}", ""))).strip()
+    return f"{label(key)} {label(shown)}"
 
 
 def _how(data: xr.Dataset) -> dict[str, str]:

@@ -31,7 +31,7 @@ def content(results: StudyResults, timings: bool) -> Content:
         "subject-title": "What is compared" if compared else "What is computed",
         "subject": [*paragraphs(results.description), *report.subject],
         "parameters": [*([report.sources] if report.sources else []), *tables],
-        "results": list(report.parts),
+        "results": list(report.parts) if results.runs or results.swept or not chapters else [],
         "companions": [_companion(chapter) for chapter in chapters],
         "provenance": _provenance(results),
         "model": report.model,

@@ -24,12 +24,17 @@ def drawings(results: StudyResults) -> list[Drawing]:
     made, mapped = list[Drawing](), set[str]()
     if results.swept and find_kind(results.kind).draws_grid(results):
         mapped = set(results.designs)
+    refinements: dict[str, list[Shown]] = {}
     for quantity in shown(results):
         design = quantity.data.attrs["design"]
-        large = not quantity.data.attrs["refined"] and len(_free(quantity)) == _MAPPED
+        if quantity.data.attrs["refined"]:
+            refinements.setdefault(design, []).append(quantity)
+            continue
+        large = len(_free(quantity)) == _MAPPED
         if not (large and design in mapped):
             made += _of(quantity, lambda key: find_kind(results.kind).marks(results, key))
         mapped |= {design} if large else set()
+    made += [one for of_design in refinements.values() for one in refined.drawings(of_design)]
     count, found = Counter[str](), []
     for one in made:  # names of files are distinct
         count[one.name] += 1
@@ -44,8 +49,6 @@ def _free(quantity: Shown) -> list[str]:
 
 
 def _of(quantity: Shown, marks: lines.MarksOf) -> list[Drawing]:
-    if quantity.data.attrs["refined"]:
-        return refined.drawings(quantity)
     free = _free(quantity)
     if not free:
         return samples.drawings(quantity)

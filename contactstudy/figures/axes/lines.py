@@ -22,8 +22,7 @@ from contactstudy.study.kind import Marks
 
 FEW = 4
 """Values of a second key for which there are panels or lines."""
-_TOLD = 8  # lines that an abstract describes
-_ENDS = 4  # lines whose smallest and largest values it places
+_TOLD = 4  # lines whose smallest and largest values an abstract places
 _MARKED = (("Dashed", (0, (4, 2))), ("Dotted", (0, (1, 2))))
 MarksOf = Callable[[str], Sequence[Marks]]
 """What is marked along a key."""
@@ -83,8 +82,9 @@ def _draw(quantity: Shown, long: str, short: list[str], marked: list[Marks]) -> 
     curves, along = _curves(quantity, long, short), axis_of(quantity.data, long)
     panels = list(dict.fromkeys(panel for panel, _ in curves))
     lines = list(dict.fromkeys(line for _, line in curves))
-    styles = run_styles(lines, None)
-    figure, grid = parts.panels(len(panels), 2, (2.5, 0.6))
+    of_runs = {label(run): style for run, style in parts.styles(quantity).items()}
+    styles = of_runs if set(lines) <= set(of_runs) else run_styles(lines, None)
+    figure, grid = parts.panels(len(panels), 2, (2.1, 0.6))
     logarithmic = parts.wide(np.concatenate([v for v, _ in curves.values()]))
     holes = along.at[parts.failed(quantity, [long])]
     for axes, panel in zip(grid.flat, panels, strict=False):
@@ -134,11 +134,15 @@ def _caption(quantity: Shown, long: str) -> str:
 
 def _found(quantity: Shown, long: str, short: list[str]) -> str:
     along, curves = axis_of(quantity.data, long), _curves(quantity, long, short)
-    # of many lines the places of both ends, which the table has, are left out
-    names = along.names if len(curves) <= _ENDS else None
     one_panel = len({panel for panel, _ in curves}) == 1 and len(curves) > 1
+    if len(curves) > _TOLD:  # of each line all panels together
+        lines: dict[str, list[Array]] = {}
+        for (_, line), (values, _half) in curves.items():
+            lines.setdefault(line, []).append(values)
+        told = [f"{line} {parts.ends(np.concatenate(v), None)}" for line, v in lines.items()]
+        return f"{_head(quantity, long)}: {'; '.join(told)}."
     told = [
-        f"{', '.join(place[one_panel:]).removeprefix(', ')} {parts.ends(values, names)}".strip(", ")
-        for place, (values, _) in list(curves.items())[:_TOLD]
+        f"{', '.join(place[one_panel:]).removeprefix(', ')} {parts.ends(values, along.names)}"
+        for place, (values, _half) in curves.items()
     ]
-    return f"{_head(quantity, long)}: {'; '.join(told)}."
+    return f"{_head(quantity, long)}: {'; '.join(told).strip(', ')}."

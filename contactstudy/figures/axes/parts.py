@@ -58,8 +58,10 @@ def wide(values: Array) -> bool:
 
 
 def styles(quantity: Shown) -> dict[str, LineStyle]:
-    """Line style of each run."""
-    return run_styles(quantity.runs, None)
+    """Line style of each run, the same for all quantities of a design."""
+    all_runs = [str(run) for run in quantity.data["run"].values] if "run" in quantity.data else []
+    known = run_styles(all_runs, quantity.reference)
+    return {run: known.get(run) or run_styles([run], None)[run] for run in quantity.runs}
 
 
 def samples_of(quantity: Shown) -> list[str]:

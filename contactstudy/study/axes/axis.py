@@ -14,6 +14,10 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
+_SHORT = 0.1
+"""Lengths of which some are shorter are called in mm up to a metre [m]."""
+
+
 @dataclass(frozen=True)
 class AxisOf:
     """A varied key: where its values stand, and how they are called."""
@@ -54,6 +58,8 @@ def axis_of(data: xr.Dataset, dim: str) -> AxisOf:
     told = f"times the {of}" if (of := attrs.get("factor_of")) else pretty_unit(unit)
     at = np.array([float(f"{v:.12g}") for v in np.asarray(values, dtype=float) * factor])
     names = tuple(f"{exact(v, 4)} {told}".strip() for v in at)
+    if unit == "m" and at.min() < _SHORT:
+        names = tuple(f"{exact(1e3 * v, 3)} mm" if v < 0.9995 else f"{exact(v, 4)} m" for v in at)
     return AxisOf(f"{title} ({told})" if told else title, at, names)
 
 
@@ -72,6 +78,8 @@ def _shown(unit: str, values: Array) -> tuple[str, float]:
         return ("mm", 1e3) if largest >= 1e-3 else ("µm", 1e6)
     if unit == "s" and largest < 0.5:
         return "µs", 1e6
+    if unit == "Pa/m":  # of penalties the power of ten is what is read
+        return unit, 1.0
     for factor, prefix in ((1e-9, "G"), (1e-6, "M"), (1e-3, "k")):
         if unit.startswith(("N", "Pa")) and largest * factor >= 1.0:
             return prefix + unit, factor

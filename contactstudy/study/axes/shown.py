@@ -36,6 +36,8 @@ class Shown:
     title: str
     quantity: Quantity
     labels: dict[str, str]
+    #: Run with which the others are compared.
+    reference: str | None = None
 
     @property
     def file(self) -> str:
@@ -85,7 +87,7 @@ def shown(results: StudyResults) -> Iterator[Shown]:
             if values.size and bool(values.notnull().any()):
                 title = quantity.title.format(**labels)
                 name = "_".join([quantity.variable, *labels.values()])
-                yield Shown(name, data, values, title, quantity, labels)
+                yield Shown(name, data, values, title, quantity, labels, results.reference)
 
 
 def _all(data: xr.Dataset) -> list[Quantity]:

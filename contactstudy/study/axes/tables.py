@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import product
@@ -12,7 +13,7 @@ from contactstudy.arrays import Array
 from contactstudy.compare.statistics import spread
 from contactstudy.plot.text import capital, label, number, resolved
 from contactstudy.study.axes.axis import axis_of, title_of
-from contactstudy.study.axes.convergences import convergences
+from contactstudy.study.axes.convergences import Line, convergences
 from contactstudy.study.axes.effects import effects, too_many
 from contactstudy.study.axes.shown import Shown, drawn, shown
 from contactstudy.study.results import StudyResults
@@ -53,6 +54,12 @@ def tables(results: StudyResults) -> Iterator[TableData]:
 
 def _refinement(design: str, quantities: list[Shown]) -> TableData:
     data = quantities[0].data
+    expected = data.attrs.get("expected_order")
+    title = f"Refinement of the {title_of(data.attrs['refined'])}"
+    title += f", expected order {expected:g}" if expected else ""
+    title += ", no order expected" if data.attrs.get("why") and not expected else ""
+    if sum(len(convergences(quantity)) for quantity in quantities) > _ROWS:
+        return _widest(design, quantities, title)
     rows = [
         [
             quantity.title,
@@ -67,12 +74,26 @@ def _refinement(design: str, quantities: list[Shown]) -> TableData:
         for quantity in quantities
         for line in convergences(quantity)
     ]
-    expected = data.attrs.get("expected_order")
-    title = f"Refinement of the {title_of(data.attrs['refined'])}"
-    title += f", expected order {expected:g}" if expected else ""
-    title += ", no order expected" if data.attrs.get("why") and not expected else ""
     columns = ["quantity", "run", "finest", "limit", "order", "band ±", "GCI (%)", "verdict"]
     return TableData(design, title, columns, rows, 2)
+
+
+def _widest(design: str, quantities: list[Shown], title: str) -> TableData:
+    """Of refinements at many points of other keys the widest band, and how many have a verdict."""
+    rows = []
+    for quantity in quantities:
+        of_runs: dict[str, list[tuple[str, Line]]] = {}
+        for line in convergences(quantity):
+            place, _, run = line.name.rpartition(", ")
+            of_runs.setdefault(run, []).append((place, line))
+        for run, lines in of_runs.items():
+            place, worst = max(lines, key=lambda one: np.nan_to_num(one[1].uncertainty))
+            verdicts = Counter(line.verdict for _, line in lines)
+            told = ", ".join(f"{n} {verdict}" for verdict, n in verdicts.items())
+            cells = [_cell(worst.uncertainty, 2), place, _cell(100.0 * worst.index, 2)]
+            rows.append([quantity.title, run, told, *cells])
+    columns = ["quantity", "run", "verdicts", "widest band ±", "at", "GCI there (%)"]
+    return TableData(design, title, columns, rows, 3)
 
 
 def _sample(design: str, quantities: list[Shown]) -> TableData:
@@ -85,7 +106,7 @@ def _sample(design: str, quantities: list[Shown]) -> TableData:
                 cells = [_cell(s.mean, 4), "0", "0", *[_cell(s.mean, 4)] * 2]
             else:
                 ends = [resolved(v, s.half_width) for v in (s.mean, s.low, s.high)]
-                cells = [ends[0], *(_cell(w, 2) for w in widths), *ends[1:]]
+                cells = [ends[0], *(_cell(w) for w in widths), *ends[1:]]
             rows.append([quantity.title, label(run), str(s.n), *cells])
     columns = ["quantity", "run", "samples", "mean", "± 95 %", "deviation", "least", "largest"]
     return TableData(design, "Spread over the sample", columns, rows, 2)

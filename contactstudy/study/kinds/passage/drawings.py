@@ -40,5 +40,5 @@ def drawings(results: StudyResults) -> list[Drawing]:
 
 
 def draws_grid(results: StudyResults) -> bool:
-    """Whether there is a map of trust."""
-    return trust.trust_map(results) is not None
+    """Whether there is a map of trust, or curves over the contact stiffness."""
+    return trust.trust_map(results) is not None or bool(stiffness.curves(results))

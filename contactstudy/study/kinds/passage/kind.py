@@ -35,7 +35,6 @@ class PassageKind(Kind):
         Quantity("largest_of_deck", "Largest displacement of the deck (mm)", _DECK[0], 1e3),
         Quantity("largest_of_deck", "Largest acceleration of the deck (m/s²)", _DECK[1]),
         Quantity("lost_time", "Time without contact (ms)", {}, 1e3),
-        Quantity("lost_length", "Way without contact (mm)", {}, 1e3),
         Quantity("impulse", "Impulse beyond the static load (N s)"),
         Quantity("from_finest", f"Difference of the {_NAME} from the finest (%)", _PART, 100.0),
         Quantity(

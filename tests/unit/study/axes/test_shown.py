@@ -1,5 +1,7 @@
 """Orders, distributions, tables and figures of studies with axes whose law is known."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy import stats
@@ -7,9 +9,11 @@ from scipy import stats
 from contactstudy.driver import compute_study
 from contactstudy.figures.axes import drawings
 from contactstudy.figures.axes.maps import edges
+from contactstudy.figures.axes.parts import styles
 from contactstudy.plot.style import figure_style
-from contactstudy.report.axes import abstract, parts, subject
+from contactstudy.report.axes import _shared, abstract, parts, subject
 from contactstudy.study.axes.axis import AxisOf, axis_of
+from contactstudy.study.axes.shown import shown
 from contactstudy.study.axes.tables import tables
 from contactstudy.study.loading import load_study
 
@@ -57,6 +61,26 @@ def test_a_refinement_at_each_point_of_a_sweep(swept):
     np.testing.assert_allclose(found, [1, 2], rtol=1e-6)
 
 
+def test_a_refinement_at_many_points_is_told_by_its_widest_band(swept):
+    """y = 5 + s x: the band grows with s, and 26 points are more than a table shows."""
+    text = '[refine]\n"law.x" = [0.8, 0.4, 0.2, 0.1]\n[sweep]\n"law.scale" = "1 to 26 by 1"\n'
+    (row,) = (row for row in cells(swept(text)) if row["run"] == "power")
+    assert row["at"] == "26" and row["verdicts"].startswith("26 ")
+
+
+def test_what_all_runs_share_is_told_once(swept):
+    runs, _ = subject(swept('[sweep]\n"law.x" = [1, 2]\n'))
+    assert len(runs["items"]) == len(set(runs["items"]))
+    assert _shared([{"a": 1, "b": 2}, {"a": 1, "b": 3}]) == {"a": 1}
+    assert _shared([{"a": 1}, {"a": 1, "b": 3}]) == {} == _shared([{"a": 1}])
+
+
+def test_a_run_looks_alike_in_all_figures_of_a_design(swept):
+    (quantity,) = shown(swept('[sweep]\n"law.x" = [1, 2]\n'))
+    some = replace(quantity, values=quantity.values.isel(run=[1]))
+    assert styles(some) == {some.runs[0]: styles(quantity)[some.runs[0]]}
+
+
 def test_keys_that_all_refinements_share_are_listed_once(swept):
     text = '[refine]\n"law.x" = [0.8, 0.4, 0.2]\n"law.scale" = [3, 2, 1]\n'
     *_, listed = subject(swept(text + '[sweep]\n"law.order" = [1, 2]\n'))
@@ -94,7 +118,7 @@ def test_samples_are_counted_in_whole_numbers(swept):
         ('"law.x" = [1, 2, 3]\n"law.scale" = [1, 2]', "2, power 7.00 (at 1 m) to 23.0 (at 3 m)"),
         (
             '"law.x" = [1, 2, 3]\n"law.scale" = [1, 2, 3]',
-            "1, shared 1.00; 2, shared 2.00; 3, shared 3.00; 1, power 6.00 to 14.0; 2, power 7.00",
+            "over the x (m): shared 1.00 to 3.00; power 6.00 to 32.0.",
         ),
         ('"law.x" = [1, 2, 3]\n"law.seed" = [1, 2]', "Means of 2 samples"),
         (

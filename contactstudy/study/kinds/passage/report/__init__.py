@@ -6,6 +6,7 @@ from contactstudy.figures import model
 from contactstudy.figures.histories import EXPLAINED
 from contactstudy.figures.irregularity import irregularity_of
 from contactstudy.figures.passing_components import is_smooth
+from contactstudy.figures.signals import wheel_note
 from contactstudy.report.blocks import Block, cited, figure, paragraphs, text
 from contactstudy.study.kind import Part, Report
 from contactstudy.study.kinds.passage.drawings import drawings
@@ -121,7 +122,7 @@ def _parts(results: StudyResults) -> list[Part]:
         own = [d for d in made if d.name.startswith(names)]
         blocks = [figure(d.name, d.caption) for d in own]
         if title == "Contact force" and own:
-            blocks.insert(0, text(EXPLAINED))
+            blocks.insert(0, text(EXPLAINED + wheel_note(results)))
         if title == "Motion of the bridge":
             blocks += [*deck_table(results), *support_table(results)]
         if title == "Wheel forces":

@@ -4,7 +4,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from contactstudy.compare.signals import position, speed, values
+from contactstudy.compare.signals import is_moving_force, position, speed, values
 from contactstudy.figures.irregularity import comparisons, irregularity_of
 from contactstudy.figures.passing_components import all_passing
 from contactstudy.figures.signals import fade_end, others
@@ -13,6 +13,7 @@ from contactstudy.plot.text import capital, exact, label, listing, number
 from contactstudy.report.quantity import grouped, percent
 from contactstudy.study.kinds.passage.report import lost, rungs
 from contactstudy.study.kinds.passage.report.conclusion import conclusion
+from contactstudy.study.kinds.passage.report.deck_table import deck_sentences
 from contactstudy.study.kinds.passage.report.measured_table import measured_sentences
 from contactstudy.study.kinds.passage.report.metrics import between, of_run
 from contactstudy.study.kinds.passage.report.naming import OUR_READING, model, papers_scheme
@@ -43,7 +44,7 @@ def grade(error: float) -> str:
 
 def abstract(results: StudyResults) -> list[str]:
     """Paragraphs of the abstract; what the study does not compare is not spoken of."""
-    paragraphs = [_case(results), *measured_sentences(results)]
+    paragraphs = [_case(results), *deck_sentences(results), *measured_sentences(results)]
     if _errors(results):
         paragraphs += rungs.sentences(results) or [_verdict(results)]
         paragraphs.append(_cost(results))
@@ -115,7 +116,9 @@ def _irregularity(results: StudyResults) -> str:
 def _errors(results: StudyResults) -> dict[str, tuple[float, float | None, float]]:
     """Run -> errors of its contact force: relative total, relative dynamic, largest in N."""
     found = {}
-    for name in results.runs:
+    for name, run in results.runs.items():
+        if is_moving_force(run):  # which is constant
+            continue
         errors = between(results, name, "contact_force")
         if errors and errors.get("relative_l2") is not None:
             dynamic = errors.get("relative_l2_dynamic")
@@ -203,5 +206,19 @@ def _companion(results: StudyResults) -> Iterable[str]:
 
 
 def _count(n: int) -> str:
-    words = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine")
+    words = (
+        "no",
+        "one",
+        "two",
+        "three",
+        "four",
+        "five",
+        "six",
+        "seven",
+        "eight",
+        "nine",
+        "ten",
+        "eleven",
+        "twelve",
+    )
     return words[n] if n < len(words) else str(n)

@@ -32,6 +32,33 @@ _LIMITS = (
 _LOWEST_CUT = 30.0  # Hz, EN 1990
 
 
+def deck_sentences(results: StudyResults) -> list[str]:
+    """For the abstract: how far the deck moves, and how much more than under the static loads."""
+    station = largest_station(results)
+    if station is None:
+        return []
+    factors, accelerations = dict[str, float](), dict[str, float]()
+    for name, run in results.runs.items():
+        here = run.sel(station=station)
+        dynamic, static = here["deck_displacement"].values, here["deck_static"].values
+        factors[name] = amplification(dynamic, static)
+        accelerations[name] = float(np.abs(here["deck_acceleration"]).max())
+    return [
+        f"The deck moves most at X = {number(station, 4)} m. There its deflection is "
+        f"{_ends(factors)} times that under the static loads, its acceleration at most "
+        f"{_ends(accelerations, 2)} m/s²."
+    ]
+
+
+def _ends(values: dict[str, float], digits: int = 3) -> str:
+    """Smallest and largest value with their runs."""
+    low, high = (find(values, key=lambda name: values[name]) for find in (min, max))
+    text = f"{number(values[low], digits)}"
+    if len(values) > 1:
+        text += f" ({label(low)}) to {number(values[high], digits)} ({label(high)})"
+    return text
+
+
 def deck_table(results: StudyResults) -> list[Block]:
     """Of each run the largest values at the station where a deck moves most."""
     station = largest_station(results)

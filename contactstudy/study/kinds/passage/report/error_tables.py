@@ -69,7 +69,7 @@ def fast_note(results: StudyResults) -> str:
         return ""
     return (
         f"{rounded(100 * share, 2)} % of the variance of the rail's acceleration in "
-        f"{label(str(results.reference))} lie above {_FAST / 1e3:g} kHz. There the spread of the "
+        f"{label(str(results.reference))} lies above {_FAST / 1e3:g} kHz. There the spread of the "
         "load over the rail and the length of the elements decide, so that these differences say "
         "little of the force."
     )

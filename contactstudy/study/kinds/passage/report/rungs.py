@@ -92,11 +92,8 @@ def rung_tables(results: StudyResults) -> list[Block]:
             caption = (
                 f"Relative L₂ difference from {words} in per cent; of motions the dynamic part."
             )
-            tables.append(
-                table(
-                    columns, rows, caption, note=fast_note(results) if tables and not decked else ""
-                )
-            )
+            note = fast_note(results) if tables and not decked else ""
+            tables.append(table(columns, rows, caption, note=note) | {"size": 8})
     return tables
 
 
