@@ -35,7 +35,8 @@ def drawings(quantities: Sequence[Shown]) -> list[Drawing]:
     names = {line.name for line in sorted(found[0][1], key=_band, reverse=True)[:_LINES]}
     shown = [(q, [line for line in lines if line.name in names]) for q, lines in found]
     caption = _caption(found[0][0], len(found[0][1]))
-    return [Drawing(found[0][0].file, caption, lambda: _draw(shown))]
+    name = f"{found[0][0].data.attrs['design']}_convergence".replace(".", "_")
+    return [Drawing(name, caption, lambda: _draw(shown))]
 
 
 def _band(line: Line) -> float:

@@ -248,4 +248,4 @@ def test_a_refinement_of_the_cells_closes_in_on_hertz(study, tmp_path):
     assert abs(approach[-1] / exact - 1.0) < abs(approach[0] / exact - 1.0) < 0.02
     assert abs(approach[-1] - exact) <= band < 0.02 * exact
     assert str(data["approach_largest_verdict"].item())
-    assert (tmp_path / "out/figures/refine_positions_cell_approach_largest.pdf").is_file()
+    assert (tmp_path / "out/figures/refine_positions_cell_convergence.pdf").is_file()

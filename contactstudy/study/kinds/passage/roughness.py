@@ -105,8 +105,8 @@ def too_sharp(study: Study) -> str:
     if sharpness(study) <= 1.0:
         return ""
     return (
-        "the troughs of the wave are sharper than the wheel, (2 pi/wavelength)^2 amplitude radius "
-        "is above 1: it would rest on two crests"
+        "the troughs of the wave are sharper than the wheel ((2π/λ)² times amplitude and radius is "
+        "above 1), which would rest on two crests"
     )
 
 
