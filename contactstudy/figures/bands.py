@@ -7,7 +7,7 @@ from matplotlib.ticker import FixedLocator, NullLocator
 
 from contactstudy.arrays import BoolArray
 from contactstudy.compare.bands import CONTENT, least_content
-from contactstudy.compare.signals import speed, values
+from contactstudy.compare.signals import is_moving_force, speed, values
 from contactstudy.figures.signals import compared, fade_end, has_signal, others, styles
 from contactstudy.irregularity.estimate import ThirdOctaves, third_octave_levels
 from contactstudy.plot.drawing import Drawing
@@ -43,6 +43,8 @@ def level_pairs(results: StudyResults) -> dict[str, tuple[ThirdOctaves, ThirdOct
     pairs = {}
     for name in others(results):
         run = results.runs[name]
+        if is_moving_force(run):  # without a dynamic part
+            continue
         x, ours, theirs = compared(results, name, SIGNAL, fade_end(results))
         spacing = float(x[-1] - x[0]) / (len(x) - 1) / v
         band = (1.0 / (spacing * len(x)), min(HIGHEST, 0.45 / spacing))

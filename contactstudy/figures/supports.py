@@ -38,6 +38,17 @@ def axes_of(run: xr.Dataset) -> list[Axis]:
     return [axis for axis in _AXES if force_name(axis) in run]
 
 
+def _loaded_axes(results: StudyResults, support: int) -> list[Axis]:
+    """Axes along which a support carries anything, or its pier may move."""
+    runs = list(results.runs.values())
+    pier = "pier_displacement" in runs[0]
+    return [
+        axis
+        for axis in axes_of(runs[0])
+        if pier or any(run[force_name(axis)][support].values.any() for run in runs)
+    ]
+
+
 def loaded_support(results: StudyResults) -> int:
     """Number of the support that carries most in any run, of one with a pier where there are."""
     forces = np.max(
@@ -51,7 +62,7 @@ def loaded_support(results: StudyResults) -> int:
 
 def _draw(results: StudyResults) -> Figure:
     first, k = next(iter(results.runs.values())), loaded_support(results)
-    axes = axes_of(first)
+    axes = _loaded_axes(results, k)
     columns = 2 if "pier_displacement" in first else 1
     figure = new_figure(1.0 + 1.25 * len(axes))
     grid = figure.subplots(len(axes), columns, sharex=True, squeeze=False)
@@ -81,7 +92,7 @@ def _caption(results: StudyResults) -> str:
     for name, run in results.runs.items():
         forces = [
             f"{axis} {number(1e-3 * float(np.abs(run[force_name(axis)][k]).max()), 3)}"
-            for axis in axes_of(first)
+            for axis in _loaded_axes(results, k)
         ]
         told.append(f"{label(name)} {', '.join(forces)} kN")
     pier = ", and motion of its pier's top" if "pier_displacement" in first else ""

@@ -80,7 +80,8 @@ def _panel(axes: Axes, quantity: Shown, lines: list[Line], styles: dict[str, Lin
     axes.set_xticks(h.tolist(), [name.partition(" ")[0] for name in along.names])
     axes.set_xticks([], minor=True)
     inverse = along.at[0] < along.at[-1]
-    axes.set_xlabel(f"{along.title}, placed at the inverse" if inverse else along.title)
+    text = f"{along.title}, placed at the inverse" if inverse else along.title
+    axes.set_xlabel(textwrap.fill(text, 40))
 
 
 def _caption(quantity: Shown, lines: int) -> str:

@@ -428,6 +428,9 @@ def test_one_run_has_no_errors_and_nothing_to_compare(made):
     assert "Errors" not in [part["title"] for part in data["results"]]
     assert data["subject-title"] == "What is computed"
     assert "nothing to compare" in " ".join(data["abstract"])
+    runs = {"surface": study.runs["surface"]}
+    told = " ".join(abstract(type(study)(**{**vars(study), **alone, "runs": runs})))
+    assert "The area of the contact patch lies between" in told
 
 
 @pytest.mark.parametrize(

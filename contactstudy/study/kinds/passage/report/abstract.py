@@ -49,7 +49,7 @@ def abstract(results: StudyResults) -> list[str]:
         paragraphs += rungs.sentences(results) or [_verdict(results)]
         paragraphs.append(_cost(results))
     elif len(results.runs) == 1:
-        paragraphs.append("With one run there is nothing to compare.")
+        paragraphs.append(_patch(results) or "With one run there is nothing to compare.")
     for companion in results.companions:
         paragraphs += list(_companion(companion))
     return [p for p in paragraphs if p]
@@ -85,6 +85,19 @@ def _case(results: StudyResults) -> str:
         f"{range_of(after.min() * 1e-3, after.max() * 1e-3)} kN in motion."
     )
     return " ".join([*told, *_other_way(results), *lost.sentences(results)])
+
+
+def _patch(results: StudyResults) -> str:
+    """Area and peak pressure of the one run, if it has a patch."""
+    (run,) = results.runs.values()
+    if not {"contact_area", "peak_pressure"} <= set(run.variables):
+        return ""
+    after = position(run) >= fade_end(results)
+    area, peak = (values(run, name)[after] for name in ("contact_area", "peak_pressure"))
+    return (
+        f"The area of the contact patch {range_of(1e6 * area.min(), 1e6 * area.max())} mm², its "
+        f"peak pressure {range_of(1e-6 * peak.min(), 1e-6 * peak.max())} MPa."
+    )
 
 
 def _other_way(results: StudyResults) -> list[str]:
