@@ -4,6 +4,9 @@ Per wheel i the gap is g_i = g*_i + sum_j W_ij lambda_j, and lambda_i follows fr
 A law in which lambda is a function of the penetration d = -g alone needs one more case in
 `of_penetration`; it grows with d. It may depend on the profile's shape under the wheel at a step,
 d being counted from first touch.
+
+The paper's wheel element, eqs (4)-(6), stands once in Z and once in Y. Beside the rail a linear
+spring holds in both senses and has no static load: lambda_y = -k_y g_y, whatever the law on top.
 """
 
 import math
@@ -12,6 +15,7 @@ import numpy as np
 
 from contactstudy.arrays import Array
 from contactstudy.compiled import compiled
+from contactstudy.contact.envelope import solve_in_envelope
 
 MOVING, LINEAR, RIGID, HERTZ, PRESS, BEDDING = range(6)
 """Kinds: the static load; F - k g; g = 0; and functions of d alone: k d^(3/2), a table, a bedding.
@@ -31,6 +35,7 @@ def wheel_forces(
     free_gap: Array,
     static_loads: Array,
     bilateral: bool,
+    beside: Array,
     force: Array,
 ) -> float:
     """Forces of all wheels (nw,) [N] into `force`; what is left of the equations, 0 if solved.
@@ -45,6 +50,8 @@ def wheel_forces(
         W [m/N].
     free_gap, static_loads : ndarray (nw,)
         g* [m] and F [N].
+    beside : ndarray (nw,)
+        k_y of contacts beside the rail [N/m]; 0 of those that follow the law.
     """
     n = len(free_gap)
     if kind == MOVING:
@@ -55,14 +62,19 @@ def wheel_forces(
         return 0.0
     if kind >= HERTZ:
         if n > 1:
-            return _nonlinear_many(kind, numbers, shape, compliance, free_gap, force)
+            return _nonlinear_many(kind, numbers, shape, compliance, free_gap, beside, force)
         force[0] = _nonlinear_one(kind, numbers, shape[0], compliance[0, 0], free_gap[0])
         return 0.0
     # lambda = F - k_r (g* + W lambda)  =>  (W + 1/k_r) lambda = F/k_r - g*; rigid: 1/k_r = 0
     softness = 1.0 / numbers[0] if kind == LINEAR else 0.0
     if n > 1:
-        flexibility = compliance + np.eye(n) * softness
-        return _linear_many(flexibility, static_loads * softness - free_gap, bilateral, force)
+        flexibility, target = compliance.copy(), static_loads * softness - free_gap
+        for i in range(n):
+            flexibility[i, i] += softness
+            if beside[i] > 0.0:  # g_y* + W lambda = -lambda_y/k_y
+                flexibility[i, i] = compliance[i, i] + 1.0 / beside[i]
+                target[i] = -free_gap[i]
+        return _linear_many(flexibility, target, bilateral, beside, force)
     if kind == LINEAR:
         k_r = numbers[0]
         force[0] = (static_loads[0] - k_r * free_gap[0]) / (1.0 + k_r * compliance[0, 0])
@@ -148,16 +160,19 @@ def _approach(step: float, lift: Array, d: float) -> tuple[float, float]:
 
 
 @compiled
-def _linear_many(flexibility: Array, target: Array, bilateral: bool, force: Array) -> float:
-    """Solve flexibility @ lambda = target, or its complementarity problem with lambda >= 0.
+def _linear_many(
+    flexibility: Array, target: Array, bilateral: bool, beside: Array, force: Array
+) -> float:
+    """Solve flexibility @ lambda = target, or its complementarity problem with lambda >= 0 on top.
 
     The linear solution counts if nowhere tensile. Otherwise projected Gauss-Seidel sweeps, which
     converge for every positive definite matrix, find who is apart.
     """
-    force[:] = np.linalg.solve(flexibility, target)
-    if bilateral or not np.any(force < 0.0):
+    force[:] = solve_in_envelope(flexibility, target)
+    holds = beside > 0.0
+    if bilateral or not np.any((force < 0.0) & ~holds):
         return 0.0
-    force[:] = np.maximum(force, 0.0)
+    force[:] = np.where(holds, force, np.maximum(force, 0.0))
     change = 0.0
     for _ in range(1000 * _ITERATIONS):
         change = 0.0
@@ -166,10 +181,12 @@ def _linear_many(flexibility: Array, target: Array, bilateral: bool, force: Arra
             for j in range(len(force)):
                 if j != i:
                     rest -= flexibility[i, j] * force[j]
-            new = max(0.0, rest / flexibility[i, i])
+            new = rest / flexibility[i, i]
+            if not holds[i]:
+                new = max(0.0, new)
             change = max(change, abs(new - force[i]))
             force[i] = new
-        if change <= 1e-14 * np.max(force):
+        if change <= 1e-14 * np.max(np.abs(force)):
             return 0.0
     return change * np.max(np.diag(flexibility))
 
@@ -205,26 +222,37 @@ def _nonlinear_one(
 
 @compiled
 def _nonlinear_many(
-    kind: int, numbers: Array, shape: Array, compliance: Array, free_gap: Array, force: Array
+    kind: int,
+    numbers: Array,
+    shape: Array,
+    compliance: Array,
+    free_gap: Array,
+    beside: Array,
+    force: Array,
 ) -> float:
     """Newton with a line search on g* + W lambda(d) + d = 0, d < 0 being an open gap."""
     n, scale = len(free_gap), np.abs(free_gap).max()
-    slope, trial_slope, trial_force = np.zeros(n), np.zeros(n), np.zeros(n)
+    trial_force, trial_slope = np.zeros(n), np.zeros(n)
     d = -free_gap
-    for i in range(n):
-        force[i], slope[i] = of_penetration(kind, numbers, shape[i], d[i])
+    slope = np.zeros(n)
+    _of_penetrations(kind, numbers, shape, beside, d, force, slope)
     left = compliance @ force  # + g* + d = 0
     for _ in range(_ITERATIONS):
         if np.abs(left).max() <= 1e-15 * scale:
             break
-        # I + W D is regular for W positive definite and D >= 0
-        move = np.linalg.solve(np.eye(n) + compliance * slope, left)
+        # (I + W D) move = left is regular for W positive definite and D = r r >= 0: with
+        # (I + r W r) z = r left, symmetric, move = left - W r z
+        root = np.sqrt(slope)
+        symmetric = compliance * root
+        for i in range(n):
+            symmetric[i] *= root[i]
+            symmetric[i, i] += 1.0
+        move = left - compliance @ (root * solve_in_envelope(symmetric, root * left))
         length, size = 1.0, np.linalg.norm(left)
         better = False
         while not better and length > 1e-10:
             trial = d - length * move
-            for i in range(n):
-                trial_force[i], trial_slope[i] = of_penetration(kind, numbers, shape[i], trial[i])
+            _of_penetrations(kind, numbers, shape, beside, trial, trial_force, trial_slope)
             trial_left = free_gap + compliance @ trial_force + trial
             better = np.linalg.norm(trial_left) < size
             length *= 0.5
@@ -234,3 +262,21 @@ def _nonlinear_many(
         force[:], slope[:] = trial_force, trial_slope
     remaining = np.abs(left).max()
     return remaining if remaining > 1e-12 * scale else 0.0
+
+
+@compiled
+def _of_penetrations(
+    kind: int,
+    numbers: Array,
+    shape: Array,
+    beside: Array,
+    d: Array,
+    force: Array,
+    slope: Array,
+) -> None:
+    """Forces and slopes of all contacts at their penetrations, into `force` and `slope`."""
+    for i in range(len(d)):
+        if beside[i] > 0.0:
+            force[i], slope[i] = beside[i] * d[i], beside[i]
+        else:
+            force[i], slope[i] = of_penetration(kind, numbers, shape[i], d[i])

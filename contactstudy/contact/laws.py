@@ -17,6 +17,10 @@ from contactstudy.contact import law_forces
 from contactstudy.exceptions import InputError, NumericalError
 from contactstudy.validation import Above, Parameters, Unit
 
+LATERAL_STIFFNESS = 1e9
+"""N/m, of the contact across the rail without slip: 0.8 of the normal tangent of 1.2 GN/m, the
+ratio 2(1 - nu)/(2 - nu) of R. D. Mindlin, J. Appl. Mech. 16 (1949) 259."""
+
 
 class Law(Protocol):
     """A law as its compiled form knows it, see `law_forces`."""
@@ -151,6 +155,7 @@ def point_forces(
     static_loads: Array,
     bilateral: bool = False,
     shape: Array | None = None,
+    beside: Array | None = None,
 ) -> Array:
     """Forces lambda (nw,) [N] of all wheels that satisfy the law at the end of a step.
 
@@ -166,6 +171,8 @@ def point_forces(
         Whether tension is possible; for linear and rigid contact only.
     shape : ndarray, optional
         Of the profile under each wheel (nw, m), for the laws of `patch_laws` [m].
+    beside : ndarray, optional
+        (nw,) k_y of contacts beside the rail [N/m]; 0 of those on top, which follow the law.
 
     Raises
     ------
@@ -181,6 +188,7 @@ def point_forces(
         np.ascontiguousarray(free_gap),
         np.ascontiguousarray(static_loads),
         bilateral,
+        np.zeros(len(free_gap)) if beside is None else beside,
         force,
     )
     if left:

@@ -47,8 +47,6 @@ class AttachedMany:
         self._coupling, self._factor, self._scale = coupling, factor, scale
         self._columns = LocalColumns(factor, _MEMORY, CUT, half=True)
         self._exact: tuple[int, Array] | None = None
-        n_blocks, rows, _ = factor.blocks.left.shape
-        self._padded = n_blocks * rows  # y of `Factor.forward` without the zeros before it
         dofs, weights = coupling.gaps.rows(0)
         used = np.unique(dofs[weights != 0.0])
         probe = used[:: max(1, len(used) // 8)]
@@ -79,26 +77,23 @@ class AttachedMany:
     def half_way(self, step: int, u_known: Array, of_a: float, half: Array) -> ContactStep:
         """See `HalfWay`."""
         coupling, gaps = self._coupling, self._coupling.gaps
-        dofs, weights = gaps.rows(step)
-        pieces, local = self._pieces(dofs, weights), gaps.compliance[step]
-        y = half[len(half) - self._padded :]
-        found, W, spread = products(pieces, y), overlaps(pieces), self._factor.spread
+        (dofs, weights), of_vehicle = gaps.rows(step), gaps.wheels[0].shape[1]
+        y, spread = half[self._factor.blocks.before :], self._factor.spread
+        pieces, W, free_gap = met(self._columns.at(dofs), dofs, weights, of_vehicle, y)
         if spread is not None:
             own, taken = lessen(spread.moved, spread.core, dofs, weights, W)
             seen = product(spread.rows, y)
-            found -= taken @ seen
-        free_gap = row_values(dofs, weights, u_known) + of_a * found
-        W = self._scaled(step, W)
-        force = coupling.forces(step, W, free_gap - gaps.irregularity[step])
-        load, increment = np.zeros_like(u_known), np.zeros_like(half)
+            free_gap -= taken @ seen
+        free_gap = row_values(dofs, weights, u_known) + of_a * free_gap - gaps.irregularity[step]
+        force = coupling.forces(step, self._scaled(step, W), free_gap)
+        load = np.zeros_like(u_known)
         add_rows(dofs, weights, force, load)
-        change, pushed = increment[len(half) - self._padded :], self._scale / of_a * force
-        add_pieces(pieces, pushed, change)
+        pushed = self._scale / of_a * force
+        add_pieces(pieces, pushed, y)
         if spread is not None:
-            spread.take(change, spread.core @ (seen + pushed @ own))
-        return ContactStep(
-            load, increment, {"contact_force": force, "rail_residual": -local * force}
-        )
+            spread.take(y, spread.core @ (seen + pushed @ own))
+        record = {"contact_force": force, "rail_residual": -gaps.compliance[step] * force}
+        return ContactStep(load, np.zeros(0), record)
 
     def _solved(self, step: int, dofs: IntArray, weights: Array) -> Array:
         """B S^-1 B^T with one solution a contact; kept, as a static start asks for one step."""
@@ -136,6 +131,15 @@ class AttachedMany:
             f"contact of {len(free_gap)} wheels: far wheels move each other by"
             f" {np.abs(far - before).max():.3g} m, which does not settle"
         )
+
+
+@compiled
+def met(
+    columns: Columns, dofs: IntArray, weights: Array, of_vehicle: int, y: Array
+) -> tuple[Columns, Array, Array]:
+    """Pieces Z, Z^T Z and Z^T y, see `combined`, `overlaps` and `products`."""
+    pieces = combined(columns, dofs, weights, of_vehicle)
+    return pieces, overlaps(pieces), products(pieces, y)
 
 
 @compiled

@@ -1,14 +1,15 @@
 """Point contact: a law between the wheel and the rail at the wheel's position."""
 
-import math
 from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
 
 from contactstudy.arrays import Array, BoolArray
 from contactstudy.contact.few_contacts import AttachedFew
-from contactstudy.contact.laws import Law, MovingForce, point_forces
+from contactstudy.contact.laws import LATERAL_STIFFNESS, Law, point_forces
 from contactstudy.contact.many_contacts import FEWEST, AttachedMany
 from contactstudy.contact.point_gaps import PointGaps
-from contactstudy.contact.two_directions import forces_in_two_directions
 from contactstudy.dynamics.banded import Factor
 
 
@@ -31,7 +32,7 @@ class PointCoupling:
     static_loads: Array
     bilateral: bool = False
     lateral: BoolArray | None = None
-    lateral_stiffness: float = math.inf
+    lateral_stiffness: float = LATERAL_STIFFNESS
 
     @property
     def accuracy(self) -> float:
@@ -48,16 +49,13 @@ class PointCoupling:
 
     def forces(self, step: int, compliance: Array, free_gap: Array) -> Array:
         """Forces (nc,) at the end of a step, for W and g*."""
-        law, shape, loads = self.law, self.gaps.shape[step], self.static_loads
-        if self.lateral is None:
-            return point_forces(law, compliance, free_gap, loads, self.bilateral, shape)
-        if isinstance(law, MovingForce):
-            return loads
-        top = ~self.lateral
-        return forces_in_two_directions(
-            self.lateral,
-            self.lateral_stiffness,
-            compliance,
-            free_gap,
-            lambda W, g: point_forces(law, W, g, loads[top], False, shape[top]),
+        shape = self.gaps.shape[step]
+        return point_forces(
+            self.law, compliance, free_gap, self.static_loads, self.bilateral, shape, self._beside
         )
+
+    @cached_property
+    def _beside(self) -> Array | None:
+        if self.lateral is None:
+            return None
+        return np.where(self.lateral, self.lateral_stiffness, 0.0)

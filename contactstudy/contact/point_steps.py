@@ -12,18 +12,9 @@ from contactstudy.arrays import Array, IntArray
 from contactstudy.compiled import compiled
 from contactstudy.contact.law_forces import wheel_forces
 from contactstudy.dynamics.columns import Columns, add_columns, compliance
+from contactstudy.dynamics.kinematics import Scheme, correct, predict
 from contactstudy.dynamics.lanes import LaneSystem, subtract_in_lanes
 from contactstudy.dynamics.rows import row_values
-
-
-class Scheme(NamedTuple):
-    """Time step and parameters of the integrator."""
-
-    dt: float
-    beta: float
-    gamma: float
-    alpha_m: float
-    alpha_f: float
 
 
 class LaneState(NamedTuple):
@@ -104,8 +95,12 @@ def advance(
         np.empty((n, lanes)),
     )
     work, free_gap, force = np.zeros(n), np.zeros(n_wheels), np.zeros(n_wheels)
+    beside = np.zeros(n_wheels)  # none
+    # all lanes one after the other
+    motion = state.u.reshape(-1), state.v.reshape(-1), state.a.reshape(-1)
+    means = mean_u.reshape(-1), mean_v.reshape(-1), mean_a.reshape(-1)
     for k in range(1, gaps.dofs.shape[0]):
-        _predict(scheme, state, (mean_u, mean_v, mean_a))
+        predict(scheme, motion, motion[:2], means)
         # S a* = f_ext + af B^T lambda(n) - am M a - C (...) - K (...), rows divided by D
         y[:] = steady
         if af != 0.0:
@@ -135,7 +130,15 @@ def advance(
                     free_gap[i] += weights[i, j] * (state.u[at, lane] + of_a * y[at, lane])
             shape, numbers = gaps.shape[k, lane], laws.numbers[lane]
             rest = wheel_forces(
-                laws.kind, numbers, shape, W, free_gap, laws.static_loads, laws.bilateral, force
+                laws.kind,
+                numbers,
+                shape,
+                W,
+                free_gap,
+                laws.static_loads,
+                laws.bilateral,
+                beside,
+                force,
             )
             if rest != 0.0 or not np.all(np.isfinite(force)):
                 left[lane] = -1
@@ -145,7 +148,7 @@ def advance(
             state.force[lane] = force
             record.contact_force[k - 1, lane] = force
             record.rail_residual[k - 1, lane] = -gaps.compliance[k, lane] * force
-        _correct(scheme, state, y)
+        correct(scheme, motion[:2], y.reshape(-1), motion)
         for lane in range(lanes):
             if left[lane] >= k:
                 dofs, weights = gaps.dofs[k, lane], gaps.weights[k, lane]
@@ -155,33 +158,6 @@ def advance(
                     record.station_u[k - 1, lane] = row_values(
                         dofs[lane], weights[lane], state.u[:, lane]
                     )
-
-
-@compiled
-def _predict(scheme: Scheme, state: LaneState, means: tuple[Array, Array, Array]) -> None:
-    """u~ and v~ for u and v, and what M, C and K are multiplied with."""
-    dt, beta, gamma, am, af = scheme
-    u, v, a = state.u.reshape(-1), state.v.reshape(-1), state.a.reshape(-1)
-    mean_u, mean_v, mean_a = (means[0].reshape(-1), means[1].reshape(-1), means[2].reshape(-1))
-    for i in range(len(u)):
-        u_known = u[i] + dt * v[i] + dt**2 * (0.5 - beta) * a[i]
-        v_known = v[i] + dt * (1.0 - gamma) * a[i]
-        mean_u[i] = (1.0 - af) * u_known + af * u[i]
-        mean_v[i] = (1.0 - af) * v_known + af * v[i]
-        mean_a[i] = am * a[i]
-        u[i], v[i] = u_known, v_known
-
-
-@compiled
-def _correct(scheme: Scheme, state: LaneState, y: Array) -> None:
-    """New accelerations, and the displacements and velocities that follow from them."""
-    dt, beta, gamma, _, _ = scheme
-    u, v, a = state.u.reshape(-1), state.v.reshape(-1), state.a.reshape(-1)
-    new = y.reshape(-1)
-    for i in range(len(u)):
-        a[i] = new[i]
-        u[i] += beta * dt**2 * new[i]
-        v[i] += gamma * dt * new[i]
 
 
 @compiled

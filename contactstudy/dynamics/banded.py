@@ -99,7 +99,7 @@ class Factor:
 
     def _spread(self, rows: sp.csr_array) -> SpreadDampers:
         half = [self.forward(row) for row in rows.toarray()]
-        before = self.blocks.left.shape[2]
+        before = self.blocks.before
         return SpreadDampers(
             np.array([y[before : before + self.n] for y in half]).reshape(-1, self.n),
             np.array([self.backward(y.copy()) for y in half]).reshape(-1, self.n),
@@ -110,8 +110,8 @@ class Factor:
         """L in blocks of 8 rows.
 
         A row by row solution waits for every single dot product; the eight of a block do not wait
-        for each other. Where the band is narrower than at its widest, the leading
-        columns of a block are zero and passed over.
+        for each other. Where the band is narrower than at its widest, a block begins with its
+        first column that is not zero.
         """
         width = -(-max(self.half_bandwidth, 1) // BLOCK) * BLOCK
         n_blocks = -(-self.n // BLOCK)
@@ -124,44 +124,49 @@ class Factor:
             i = np.arange(distance, self.n)
             rows[i, width + i % BLOCK - distance] = self.band[distance, : self.n - distance]
         blocks = rows.reshape(n_blocks, BLOCK, width + BLOCK)
-        left = np.ascontiguousarray(blocks[:, :, :width])
+        left, inverse = blocks[:, :, :width], np.tril(np.linalg.inv(blocks[:, :, width:]))
         filled = np.any(left != 0.0, axis=1)
-        lead = np.where(filled.any(axis=1), filled.argmax(axis=1), width)
-        return Blocks(left, np.tril(np.linalg.inv(blocks[:, :, width:])), lead)
+        wide = np.where(filled.any(axis=1), width - filled.argmax(axis=1), 0)
+        kept = np.broadcast_to(np.arange(width) >= width - wide[:, None, None], left.shape)
+        begin = BLOCK * (np.cumsum(wide) - wide)
+        return Blocks(left[kept], begin, wide, inverse, width)
+
+    def padded(self, b: Array) -> Array:
+        """b (n,) behind `Blocks.before` zeros and before those that fill the last block."""
+        blocks = self.blocks
+        x = np.zeros(blocks.before + len(blocks.wide) * BLOCK)
+        x[blocks.before : blocks.before + self.n] = b
+        return x
 
     def forward(self, b: Array) -> Array:
-        """y of L y = b (n,), behind zeros as many as a block is wide: what `backward` takes."""
-        n_blocks, _, width = self.blocks.left.shape
-        y = np.zeros(width + n_blocks * BLOCK)
-        y[width : width + self.n] = b
-        _forward(self.blocks, y, 0, n_blocks)
+        """y of L y = b (n,), `padded`: what `backward` takes."""
+        y = self.padded(b)
+        _forward(self.blocks, y, 0, len(self.blocks.wide))
         return y
 
     def backward(self, y: Array) -> Array:
         """x (n,) of L^T x = y, which is overwritten."""
-        n_blocks, _, width = self.blocks.left.shape
-        _backward(self.blocks, y, 0, n_blocks)
-        return y[width : width + self.n]
+        before = self.blocks.before
+        _backward(self.blocks, y, 0, len(self.blocks.wide))
+        return y[before : before + self.n]
 
     def solve(self, b: Array) -> Array:
         """Solve for one or several right-hand sides, (n,) or (n, k); b is left as it is."""
         if b.ndim == 1:
             y = self.forward(b)
             if self.spread is not None:
-                self.spread.settle(y[self.blocks.left.shape[2] :])
+                self.spread.settle(y[self.blocks.before :])
             return self.backward(y)
         if self.spread is not None:
             return np.array([self.solve(column) for column in b.T]).reshape(b.T.shape).T
-        blocks = self.blocks
-        n_blocks, _, width = blocks.left.shape
-        columns = np.zeros((b.shape[1], width + n_blocks * BLOCK))
-        columns[:, width : width + self.n] = b.T
+        before = self.blocks.before
+        columns = np.array([self.padded(one) for one in b.T])
         for x in columns:
             nonzero = np.flatnonzero(x)
             if len(nonzero):
-                first, last = (nonzero[[0, -1]] - width) // BLOCK
-                solve_near(blocks, x, first, last + 1, 1e-20)
-        return columns[:, width : width + self.n].T
+                first, last = (nonzero[[0, -1]] - before) // BLOCK
+                solve_near(self.blocks, x, first, last + 1, 1e-20)
+        return columns[:, before : before + self.n].T
 
 
 class Blocks(NamedTuple):
@@ -169,39 +174,51 @@ class Blocks(NamedTuple):
 
     Attributes
     ----------
-    left : ndarray (n_blocks, 8, width)
-        Left of each diagonal block.
+    left : ndarray
+        Of each block b its 8 rows left of the diagonal block one after the other,
+        ``left[begin[b] + j * wide[b] :][: wide[b]]`` in the columns right before the block.
+    begin, wide : ndarray (n_blocks,)
+        Where they begin in `left`, and how many columns they have.
     inverse : ndarray (n_blocks, 8, 8)
         Of each diagonal block.
-    lead : ndarray (n_blocks,)
-        Leading zeros of each block of `left`.
+    before : int
+        Zeros before a vector that is solved for, at least as many as the widest block has columns.
     """
 
     left: Array
+    begin: IntArray
+    wide: IntArray
     inverse: Array
-    lead: IntArray
+    before: int
 
 
 @compiled_in_any_order
 def _forward(blocks: Blocks, x: Array, first: int, stop: int) -> None:
     """L y = b on blocks first .. stop - 1: y_i = D_i^-1 (b_i - P_i y_before).
 
-    x holds b on entry, below as many zeros as `left` is wide.
+    x holds b on entry, below as many zeros as `Blocks` says.
     """
-    left, inverse, lead = blocks
-    width = left.shape[2]
+    left, begin, wide, inverse, before = blocks
     y = np.empty(8)
     for block in range(first, stop):
-        s = width + block * 8
-        before, here = x[s - width : s], x[s : s + 8]
-        p, d, begin = left[block], inverse[block], lead[block]
-        known = before[begin:]
-        for j in range(8):
-            row = p[j, begin:]
-            total = 0.0
-            for k in range(width - begin):
-                total += row[k] * known[k]
-            y[j] = here[j] - total
+        s, n = before + block * 8, wide[block]
+        known, here = x[s - n : s], x[s : s + 8]
+        p = left[begin[block] : begin[block] + 8 * n]
+        p0, p1, p2, p3 = p[:n], p[n : 2 * n], p[2 * n : 3 * n], p[3 * n : 4 * n]
+        p4, p5, p6, p7 = p[4 * n : 5 * n], p[5 * n : 6 * n], p[6 * n : 7 * n], p[7 * n :]
+        t0, t1, t2, t3, t4, t5, t6, t7 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+        for k in range(n):
+            t0 += p0[k] * known[k]
+            t1 += p1[k] * known[k]
+            t2 += p2[k] * known[k]
+            t3 += p3[k] * known[k]
+            t4 += p4[k] * known[k]
+            t5 += p5[k] * known[k]
+            t6 += p6[k] * known[k]
+            t7 += p7[k] * known[k]
+        y[0], y[1], y[2], y[3] = here[0] - t0, here[1] - t1, here[2] - t2, here[3] - t3
+        y[4], y[5], y[6], y[7] = here[4] - t4, here[5] - t5, here[6] - t6, here[7] - t7
+        d = inverse[block]
         for j in range(8):
             total = 0.0
             for k in range(8):
@@ -212,13 +229,15 @@ def _forward(blocks: Blocks, x: Array, first: int, stop: int) -> None:
 @compiled_in_any_order
 def _backward(blocks: Blocks, x: Array, first: int, stop: int) -> None:
     """L^T x = y on blocks stop - 1 .. first: x_i = D_i^-T y_i, y_before -= P_i^T x_i."""
-    left, inverse, lead = blocks
-    width = left.shape[2]
+    left, begin, wide, inverse, before = blocks
     y = np.empty(8)
     for block in range(stop - 1, first - 1, -1):
-        s = width + block * 8
-        before, here = x[s - width : s], x[s : s + 8]
-        p, d = left[block], inverse[block]
+        s, n = before + block * 8, wide[block]
+        known, here = x[s - n : s], x[s : s + 8]
+        p = left[begin[block] : begin[block] + 8 * n]
+        p0, p1, p2, p3 = p[:n], p[n : 2 * n], p[2 * n : 3 * n], p[3 * n : 4 * n]
+        p4, p5, p6, p7 = p[4 * n : 5 * n], p[5 * n : 6 * n], p[6 * n : 7 * n], p[7 * n :]
+        d = inverse[block]
         for k in range(8):
             total = 0.0
             for j in range(8):
@@ -227,23 +246,15 @@ def _backward(blocks: Blocks, x: Array, first: int, stop: int) -> None:
         y0, y1, y2, y3, y4, y5, y6, y7 = y[0], y[1], y[2], y[3], y[4], y[5], y[6], y[7]
         for k in range(8):
             here[k] = y[k]
-        for k in range(lead[block], width):
-            before[k] -= (
-                p[0, k] * y0
-                + p[1, k] * y1
-                + p[2, k] * y2
-                + p[3, k] * y3
-                + p[4, k] * y4
-                + p[5, k] * y5
-                + p[6, k] * y6
-                + p[7, k] * y7
-            )
+        for k in range(n):
+            upper = p0[k] * y0 + p1[k] * y1 + p2[k] * y2 + p3[k] * y3
+            known[k] -= upper + p4[k] * y4 + p5[k] * y5 + p6[k] * y6 + p7[k] * y7
 
 
 @compiled
 def forward_near(blocks: Blocks, x: Array, first: int, last: int, cut: float) -> int:
     """Downward sweep of `solve_near` alone; blocks first .. high - 1 are touched."""
-    n_blocks, _, width = blocks.left.shape
+    n_blocks, width = len(blocks.wide), blocks.before
     high = last
     _forward(blocks, x, first, last)
     largest = _largest(x, width + first * 8, width + last * 8)
@@ -261,9 +272,9 @@ def solve_near(blocks: Blocks, x: Array, first: int, last: int, cut: float) -> t
     Nothing happens before the first loaded block on the way down, and both sweeps end where
     all that the next block sees has fallen below `cut` of the largest value: with the inertia
     of a short time step a load is felt some metres away. Touched are blocks low .. high - 1, and
-    as many places of x below them as `left` is wide.
+    the places of x that the lowest of them reaches back to.
     """
-    width = blocks.left.shape[2]
+    width = blocks.before
     low, high = first, forward_near(blocks, x, first, last, cut)
     _backward(blocks, x, first, high)
     largest = _largest(x, first * 8, width + high * 8)

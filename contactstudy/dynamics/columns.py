@@ -52,8 +52,7 @@ class LocalColumns:
         assert half or factor.spread is None, "a damper over a whole deck is felt all over it"
         self._factor, self._most, n = factor, int(memory / 8), factor.n
         self._cut, self._half = cut, half
-        n_blocks, _, width = factor.blocks.left.shape
-        self._work = np.zeros(width + 8 * n_blocks)
+        self._work = factor.padded(np.zeros(n))
         self._columns = Columns(
             np.zeros(n, dtype=np.int64),
             np.zeros(n, dtype=np.int64),
@@ -65,7 +64,7 @@ class LocalColumns:
     def at(self, dofs: IntArray) -> Columns:
         """Columns of dofs in an array of any shape, and perhaps others; until the next call."""
         begin = self._columns.begin
-        while (begin[dofs] < 0).any():
+        while _missing(begin, dofs.ravel()):
             missing = np.unique(dofs[begin[dofs] < 0])
             self._used = _fill(
                 self._factor.blocks, missing, self._columns, self._used, self._work, self._cut,
@@ -106,6 +105,15 @@ class LocalColumns:
 
 
 @compiled
+def _missing(begin: IntArray, dofs: IntArray) -> bool:
+    """Whether the column of any of the dofs (k,) is not there."""
+    found = False
+    for dof in dofs:
+        found = found or begin[dof] < 0
+    return found
+
+
+@compiled
 def _fill(
     blocks: Blocks,
     dofs: IntArray,
@@ -117,10 +125,10 @@ def _fill(
 ) -> int:
     """Compute the columns of dofs one by one as long as there is room; how much is used then.
 
-    x is zero, as long as the factor's blocks and below them as many places as they are wide.
+    x is zero, as long as `Factor.padded` makes it.
     """
     first, width, begin, values = columns
-    before, n = blocks.left.shape[2], len(first)
+    before, n = blocks.before, len(first)
     for dof in dofs:
         x[before + dof] = 1.0
         low = dof // 8

@@ -21,12 +21,15 @@ import numpy as np
 
 from contactstudy.arrays import Array
 from contactstudy.dynamics.banded import Factor, LinearSystem
+from contactstudy.dynamics.dampers import add_transposed, product
 from contactstudy.dynamics.integrators import (
     Integrator,
     average_acceleration,
     generalised_alpha,
     newmark,
 )
+from contactstudy.dynamics.kinematics import Scheme, correct, predict
+from contactstudy.dynamics.pairs import pair, subtract_products
 from contactstudy.dynamics.windows import subtract_product, windows
 from contactstudy.exceptions import NumericalError
 from contactstudy.validation import positive, raise_if
@@ -107,8 +110,8 @@ class HalfWay(Protocol):
     def half_way(self, step: int, u_known: Array, of_a: float, half: Array) -> ContactStep:
         """Contact at the end of a step whose free displacements are u_known + of_a S^-1 rhs.
 
-        `half` (n + some,) is y as `Factor.forward` gives it; the increment is that of y for the
-        accelerations.
+        `half` (n + some,) is y as `Factor.forward` gives it. What the contact makes of it, for the
+        accelerations, is added to it; the increment is left empty.
         """
 
 
@@ -180,47 +183,46 @@ def march(
     NumericalError
         If S cannot be factored or a state is not finite; says at which step.
     """
-    dt, beta, gamma = steps.length, integrator.beta, integrator.gamma
-    am, af = integrator.alpha_m, integrator.alpha_f
-    of_a = beta * dt**2
+    dt, am, af = steps.length, integrator.alpha_m, integrator.alpha_f
+    scheme, n = Scheme(dt, integrator.beta, integrator.gamma, am, af), system.n_dofs
+    of_a = integrator.beta * dt**2
     factor = integrator.factor(system, dt)
     attached = contact_state = None
     if coupling is not None:
         attached = coupling.attached(factor, (1.0 - af) * of_a)
         contact_state = start.contact.state if start.contact else coupling.start()
     half_way = attached.half_way if isinstance(attached, HalfWay) and attached.local else None
-    mass, damping, stiffness = map(windows, (system.mass, system.damping, system.stiffness))
-    G = system.dampers
+    mass, matrices = windows(system.mass), pair(system.stiffness, system.damping)
+    dampers = None if system.dampers is None else windows(system.dampers)
     load_at = external if callable(external) else lambda step: external
     u, v, a, load = start.u, start.v, start.a, start.load
+    known = np.empty(n), np.empty(n)
+    means = np.empty(n), np.empty(n), np.empty(n)
     for step in range(1, steps.count + 1):
         ext = load_at(step)
-        u_known = u + dt * v + dt**2 * (0.5 - beta) * a  # u~
-        v_known = v + dt * (1.0 - gamma) * a  # v~
+        predict(scheme, (u, v, a), known, means)
         # S a* = (1-af) f_ext(n+1) + af f(n) - am M a - C ((1-af) v~ + af v) - K ((1-af) u~ + af u)
         rhs = (1.0 - af) * ext + af * load
         if am != 0.0:
-            subtract_product(mass, am * a, rhs)
-        v_mean = (1.0 - af) * v_known + af * v
-        subtract_product(damping, v_mean, rhs)
-        if G is not None:
-            rhs -= (G @ v_mean) @ G
-        subtract_product(stiffness, (1.0 - af) * u_known + af * u, rhs)
+            subtract_product(mass, means[2], rhs)
+        subtract_products(matrices, means[0], means[1], rhs)
+        if dampers is not None:
+            add_transposed(dampers, -product(dampers, means[1]), rhs)
         contact, load = None, ext
         if half_way is not None:
             y = factor.forward(rhs)
-            contact = half_way(step, u_known, of_a, y)
-            a = factor.backward(y + contact.increment)
-            u, load = u_known + of_a * a, ext + contact.load
+            contact = half_way(step, known[0], of_a, y)
+            new = factor.backward(y)
         else:
-            a = factor.solve(rhs)
-            u = u_known + of_a * a
+            new = factor.solve(rhs)
             if attached is not None:
-                contact = attached(step, u, contact_state)
+                contact = attached(step, known[0] + of_a * new, contact_state)
                 contact_state = contact.state
-                u, a = u + contact.increment, a + contact.increment / of_a
-                load = ext + contact.load
-        v = v_known + gamma * dt * a
+                new += contact.increment / of_a
+        if contact is not None:
+            load = ext + contact.load
+        u, v, a = np.empty(n), np.empty(n), np.empty(n)
+        correct(scheme, known, new, (u, v, a))
         if not np.isfinite(a).all():
             where = f" (wheel at X = {steps.position(step):.3f} m)" if steps.position else ""
             raise NumericalError(

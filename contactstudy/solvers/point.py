@@ -7,10 +7,9 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from contactstudy.contact.filters import ContactFilter
-from contactstudy.contact.laws import ContactLaw
+from contactstudy.contact.laws import LATERAL_STIFFNESS, ContactLaw
 from contactstudy.contact.patch_laws import PatchLaw
 from contactstudy.contact.point_wheel import PointWheel
-from contactstudy.contact.two_directions import LATERAL_STIFFNESS
 from contactstudy.dynamics.statics import held_by_springs, static_start
 from contactstudy.dynamics.stepper import Integrator
 from contactstudy.exceptions import ContactStudyError, NumericalError

@@ -11,13 +11,18 @@ import numpy as np
 
 from contactstudy.arrays import Array, IntArray
 from contactstudy.contact.filters import ContactFilter
-from contactstudy.contact.laws import ContactLaw, HertzSpring, PressSpring, RigidContact
+from contactstudy.contact.laws import (
+    LATERAL_STIFFNESS,
+    ContactLaw,
+    HertzSpring,
+    PressSpring,
+    RigidContact,
+)
 from contactstudy.contact.many_contacts import FEWEST
 from contactstudy.contact.patch_laws import PatchLaw
 from contactstudy.contact.point_coupling import PointCoupling
 from contactstudy.contact.point_gaps import PointGaps
 from contactstudy.contact.point_wheel import PointWheel
-from contactstudy.contact.two_directions import LATERAL_STIFFNESS
 from contactstudy.dynamics.stepper import Integrator, average_acceleration, generalised_alpha
 from contactstudy.irregularity import Profile
 from contactstudy.irregularity.rails import RailProfiles

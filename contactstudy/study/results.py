@@ -26,6 +26,7 @@ from typing import TYPE_CHECKING, Any
 from contactstudy.exceptions import InputError
 from contactstudy.files import write_file, writing
 from contactstudy.store import netcdf_attributes
+from contactstudy.study.packing import packed
 from contactstudy.texts import json_text
 
 if TYPE_CHECKING:
@@ -126,7 +127,8 @@ def write_results(results: StudyResults, out_dir: Path) -> list[Path]:
     """
     files = [Path(out_dir) / RESULT_FILE, Path(out_dir) / METRICS_FILE]
     with writing(files[0]) as stream:
-        results.tree.to_netcdf(stream, engine="h5netcdf")
+        tree = results.tree
+        tree.to_netcdf(stream, engine="h5netcdf", encoding=packed(tree))
     write_file(files[1], json_text(results.metrics, indent=2) + "\n")
     return files
 

@@ -82,3 +82,28 @@ def test_impossible_stiffness(law, stiffness):
     allowed = "must be finite" if np.isnan(stiffness) else "must be above 0"
     with pytest.raises(InputError, match=f"{law.__name__}.stiffness = .*: {allowed}"):
         law(stiffness)
+
+
+@pytest.mark.parametrize(
+    "law", [LinearSpring(K_R), HertzSpring(K_H), RigidContact()], ids=lambda law: type(law).__name__
+)
+@pytest.mark.parametrize("apart", [False, True])
+def test_beside_the_rail_a_spring_holds_both_ways_whatever_the_law_on_top(law, apart):
+    """All contacts fulfil their own law at the gaps that all forces leave."""
+    k_y, n = 8e8, 6
+    beside = np.array([0.0, k_y, 0.0, k_y, 0.0, k_y])
+    top, W, loads = beside == 0.0, compliance(n, 3), np.where(beside == 0.0, 6e4, 7e3)
+    gap = np.array([-2e-4, 4e-4, -1e-4, -4e-4, 9e-4 if apart else -2e-4, 2e-5])
+    force = point_forces(law, W, gap, loads, beside=beside)
+    g = gap + W @ force
+    np.testing.assert_allclose(force[~top], -k_y * g[~top], rtol=1e-8)
+    assert np.ptp(np.sign(force[~top])) > 0.0  # pull and push
+    g, force = g[top], force[top]
+    assert (force[2] == 0.0) == apart
+    if isinstance(law, HertzSpring):
+        np.testing.assert_allclose(force, K_H * np.maximum(-g, 0.0) ** 1.5, rtol=1e-8, atol=1e-4)
+    elif isinstance(law, LinearSpring):
+        np.testing.assert_allclose(force, np.maximum(6e4 - K_R * g, 0.0), rtol=1e-8, atol=1e-4)
+    else:
+        np.testing.assert_allclose(g[force > 0.0], 0.0, atol=1e-15)
+        assert np.all(g >= -1e-15)

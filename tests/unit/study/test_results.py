@@ -97,6 +97,20 @@ def test_times_stay_out_of_the_result_file_and_bytes_repeat(tmp_path):
     assert (tmp_path / "a/result.nc").read_bytes() == (tmp_path / "b/result.nc").read_bytes()
 
 
+def test_histories_of_many_wheels_are_compressed_without_loss(tmp_path):
+    """Also in the group of a variant; what other programs read is the same."""
+    history = np.random.default_rng(1).normal(scale=1e3, size=(4, 20_000)).cumsum(axis=1)
+    history = np.repeat(history, 2, axis=0)  # both wheels of each wheelset
+    run = a_run().assign(wheel_acceleration=(("wheel", "instant"), history))
+    write_results(results(runs={"small": a_run(), "one/large": run}), tmp_path)
+    assert (tmp_path / "result.nc").stat().st_size < 0.55 * history.nbytes
+    np.testing.assert_array_equal(
+        read_results(tmp_path).runs["one/large"].wheel_acceleration, history
+    )
+    with xr.open_datatree(tmp_path / "result.nc") as tree:
+        np.testing.assert_array_equal(tree["one/large"].wheel_acceleration, history)
+
+
 def test_nothing_but_the_two_files_is_left(tmp_path):
     write_results(results(), tmp_path)
     assert sorted(p.name for p in tmp_path.iterdir()) == ["metrics.json", "result.nc"]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar, Literal
 
-from contactstudy.contact.two_directions import LATERAL_STIFFNESS
+from contactstudy.contact.laws import LATERAL_STIFFNESS
 from contactstudy.solvers.journey import Travel
 from contactstudy.study.kinds.passage.run import Run
 from contactstudy.study.kinds.passage.solid import WheelModel
