@@ -80,7 +80,7 @@ def _draw(bridge: Bridge) -> Figure:
     axes.set_xticks(ticks, [f"{t:g}" for t in ticks])
     axes.set_xticks([], minor=True)
     axes.set_ylim(bottom=0.0)
-    axes.margins(x=0)
+    axes.set_xlim(frequency[0], frequency[-1])
     figure_legend(figure, axes)
     return figure
 
