@@ -17,10 +17,19 @@ settings.register_profile("random", derandomize=False, deadline=None, print_blob
 settings.load_profile("repeatable")  # pytest --hypothesis-profile loads another one after this
 
 
-def pytest_configure(config):
-    """With pytest -n 2 the tests marked as one xdist_group go to one worker."""
-    if getattr(config.option, "dist", "no") == "load":
-        config.option.dist = "loadgroup"
+OF_THE_SITE = ("test_site.py", "test_explorer.py", "test_documentation.py")
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config, log):
+    """With pytest -n 2 the tests of the site go to one worker, which builds it once."""
+    from xdist.scheduler import LoadScopeScheduling
+
+    class SiteOnce(LoadScopeScheduling):
+        def _split_scope(self, nodeid):
+            return "site" if nodeid.partition("::")[0].endswith(OF_THE_SITE) else nodeid
+
+    return SiteOnce(config, log)
 
 
 @pytest.fixture(scope="session")

@@ -20,8 +20,6 @@ ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"
 PAGES = [ROOT / "README.md", *sorted(DOCS.glob("*.md"))]
 
-pytestmark = pytest.mark.xdist_group("site")  # built once, not by each worker
-
 
 def commands():
     for page in PAGES:

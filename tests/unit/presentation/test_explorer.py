@@ -9,8 +9,6 @@ from selenium.webdriver.support.ui import Select, WebDriverWait
 
 import contactstudy as cs
 
-pytestmark = pytest.mark.xdist_group("site")  # built once, not by each worker
-
 TRUST = json.loads((DOCS / "trust_map.json").read_text("utf-8"))
 SCHEMES = list(TRUST["runs"])
 

@@ -5,8 +5,6 @@ import time
 import pytest
 from built_site import build
 
-pytestmark = pytest.mark.xdist_group("site")  # built once, not by each worker
-
 # of each kind of text in the page its contrast with what lies behind it (WCAG 2.1)
 CONTRASTS = """
 const rgb = (text) => text.match(/[\\d.]+/g).map(Number);
