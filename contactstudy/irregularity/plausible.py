@@ -17,8 +17,7 @@ FEW_ROWS = 4
 
 _PLACEHOLDER = re.compile(r"-?(9{3,}(\.9*)?|32768|32767|2147483648|2147483647)")
 _STATED = re.compile(
-    r"(?:^|[ _])(k?m|cm|mm|[uµμ]m)$|[ _]?[\[(] *(k?m|cm|mm|[uµμ]m|in|inch|ft) *[\])]$",
-    re.IGNORECASE,
+    r"[ _](k?m|cm|mm|[uµμ]m)$|[ _]?[\[(] *(k?m|cm|mm|[uµμ]m|in|inch|ft) *[\])]$", re.IGNORECASE
 )
 _FAR = 10.0  # robust standard deviations from the median
 

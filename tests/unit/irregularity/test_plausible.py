@@ -171,12 +171,11 @@ def test_a_unit_in_the_columns_name_may_be_the_one_stated(tmp_path, name, unit):
     assert read(tmp_path, rows, level=name, unit=unit).levels.size == ROWS
 
 
-@pytest.mark.parametrize("name", ["x (km)", "km"])
-def test_positions_are_in_metres(tmp_path, name):
+def test_positions_are_in_metres(tmp_path):
     rows = cells(3)
-    rows[0][0] = name
-    with pytest.raises(InputError, match=rf"'{re.escape(name)}' says km, and is to be read in m"):
-        read(tmp_path, rows, x_column=name)
+    rows[0][0] = "x (km)"
+    with pytest.raises(InputError, match=r"'x \(km\)' says km, and is to be read in m"):
+        read(tmp_path, rows, x_column="x (km)")
 
 
 def test_a_record_that_runs_backwards_is_one_fault(tmp_path):
