@@ -131,6 +131,7 @@ class LateralMotion:
     def __init__(self, solid):
         self.solid = solid
         self.mass, self.damping, self.stiffness = solid.mass, solid.damping, solid.stiffness
+        self.dampers = None
 
     def rail_rows(self, x):
         stretches = [self.solid.stretch(one, 0.012) for one in x]

@@ -39,8 +39,8 @@ def combined(tables: Mapping[str, Any], runs: Mapping[str, Run]) -> list[str]:
         known["journey"] = None
     if known["vehicle"] is not None:
         try:
-            asked(lambda: [known["vehicle"].wheel_radius])
             known["made"] = next(iter(asked(_vehicle, **known)), None)
+            asked(lambda: [known["vehicle"].wheel_radius])
         except InputError:
             known["vehicle"] = None
     return [problem for rule in _RULES for problem in asked(rule, **known)]
