@@ -24,8 +24,6 @@ _WIDTH = 1000
 """Pixels of a figure."""
 _ASIDE = ("irregularity_", "rail_", "wheel_", "patch_", "static_press")
 """Beginnings of the names of figures that stand in the reports only."""
-_TWICE = "_from_finest_wheel_displacement_"
-"""In the name of a refinement's figure beside which stands that of the contact force."""
 
 
 def compact(results: StudyResults, command: str) -> dict:
@@ -33,7 +31,6 @@ def compact(results: StudyResults, command: str) -> dict:
     own = content(results, timings=False)
     blocks = [block for part in own["results"] for block in part["blocks"]]
     drawn = [_figure(results.name, b) for b in blocks if b["kind"] == "figure"]
-    shown = [f for f in drawn if not f["name"].startswith(_ASIDE) and _TWICE not in f["name"]]
     return {
         "name": results.name,
         "title": results.title,
@@ -41,9 +38,7 @@ def compact(results: StudyResults, command: str) -> dict:
         "description": " ".join(results.description.split()),
         "told": own["abstract"],
         "conclusion": own["conclusion"],
-        "figures": [
-            f for f in shown if not f["name"].startswith(_ASIDE) and _TWICE not in f["name"]
-        ],
+        "figures": [f for f in drawn if not f["name"].startswith(_ASIDE)],
         "versions": results.provenance["versions"],
         "code": results.provenance["code"],
     }

@@ -21,9 +21,10 @@ from contactstudy.compiled import compiled, compiled_in_any_order
 from contactstudy.contact.point_gaps import PointContacts
 from contactstudy.dynamics.banded import Factor
 from contactstudy.dynamics.columns import Columns, LocalColumns
-from contactstudy.dynamics.dampers import lessen, product
+from contactstudy.dynamics.dampers import lessen
 from contactstudy.dynamics.rows import add_rows, row_values
 from contactstudy.dynamics.stepper import ContactStep
+from contactstudy.dynamics.windows import product
 from contactstudy.exceptions import NumericalError
 
 FEWEST = 12

@@ -14,8 +14,8 @@ import numpy as np
 import scipy.sparse as sp
 
 from contactstudy.arrays import Array, IntArray
-from contactstudy.compiled import compiled, compiled_in_any_order
-from contactstudy.dynamics.windows import Windows, windows
+from contactstudy.compiled import compiled
+from contactstudy.dynamics.windows import Windows, add_transposed, product, windows
 
 _CUT = 1e-14
 """Of the largest value of a column of Y or X, below which there is none."""
@@ -58,21 +58,6 @@ def _felt(columns: Array) -> sp.csr_array:
     return sp.csr_array(np.where(felt, columns, 0.0))
 
 
-@compiled_in_any_order
-def product(rows: Windows, x: Array) -> Array:
-    """Rows (r, n) @ x, which may have more values than n."""
-    first, width, begin, values = rows
-    found = np.zeros(len(first))
-    for row in range(len(first)):
-        here = values[begin[row] : begin[row] + width[row]]
-        there = x[first[row] : first[row] + width[row]]
-        total = 0.0
-        for k in range(len(here)):
-            total += here[k] * there[k]
-        found[row] = total
-    return found
-
-
 @compiled
 def lessen(
     moved: Windows, core: Array, dofs: IntArray, weights: Array, W: Array
@@ -103,14 +88,3 @@ def lessen(
                 total += own[i, a] * taken[j, a]
             W[i, j] -= total
     return own, taken
-
-
-@compiled
-def add_transposed(rows: Windows, factors: Array, y: Array) -> None:
-    """y += factors @ rows."""
-    first, width, begin, values = rows
-    for row in range(len(first)):
-        here = values[begin[row] : begin[row] + width[row]]
-        there = y[first[row] : first[row] + width[row]]
-        for k in range(len(here)):
-            there[k] += factors[row] * here[k]

@@ -21,7 +21,6 @@ import numpy as np
 
 from contactstudy.arrays import Array
 from contactstudy.dynamics.banded import Factor, LinearSystem
-from contactstudy.dynamics.dampers import add_transposed, product
 from contactstudy.dynamics.integrators import (
     Integrator,
     average_acceleration,
@@ -30,7 +29,7 @@ from contactstudy.dynamics.integrators import (
 )
 from contactstudy.dynamics.kinematics import Scheme, correct, predict
 from contactstudy.dynamics.pairs import pair, subtract_products
-from contactstudy.dynamics.windows import subtract_product, windows
+from contactstudy.dynamics.windows import add_transposed, product, windows
 from contactstudy.exceptions import NumericalError
 from contactstudy.validation import positive, raise_if
 
@@ -204,7 +203,7 @@ def march(
         # S a* = (1-af) f_ext(n+1) + af f(n) - am M a - C ((1-af) v~ + af v) - K ((1-af) u~ + af u)
         rhs = (1.0 - af) * ext + af * load
         if am != 0.0:
-            subtract_product(mass, means[2], rhs)
+            rhs -= product(mass, means[2])
         subtract_products(matrices, means[0], means[1], rhs)
         if dampers is not None:
             add_transposed(dampers, -product(dampers, means[1]), rhs)

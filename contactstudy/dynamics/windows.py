@@ -6,7 +6,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from contactstudy.arrays import Array, IntArray
-from contactstudy.compiled import compiled_in_any_order
+from contactstudy.compiled import compiled, compiled_in_any_order
 
 
 class Windows(NamedTuple):
@@ -44,13 +44,26 @@ def windows(matrix: sp.csr_array) -> Windows:
 
 
 @compiled_in_any_order
-def subtract_product(matrix: Windows, x: Array, y: Array) -> None:
-    """y -= A x for a matrix A in windows."""
-    first, width, begin, values = matrix
-    for row in range(len(y)):
+def product(rows: Windows, x: Array) -> Array:
+    """Rows (r, n) @ x, which may have more values than n."""
+    first, width, begin, values = rows
+    found = np.zeros(len(first))
+    for row in range(len(first)):
         here = values[begin[row] : begin[row] + width[row]]
         there = x[first[row] : first[row] + width[row]]
         total = 0.0
-        for k in range(width[row]):
+        for k in range(len(here)):
             total += here[k] * there[k]
-        y[row] -= total
+        found[row] = total
+    return found
+
+
+@compiled
+def add_transposed(rows: Windows, factors: Array, y: Array) -> None:
+    """y += factors @ rows."""
+    first, width, begin, values = rows
+    for row in range(len(first)):
+        here = values[begin[row] : begin[row] + width[row]]
+        there = y[first[row] : first[row] + width[row]]
+        for k in range(len(here)):
+            there[k] += factors[row] * here[k]

@@ -28,7 +28,8 @@ def drawings(results: StudyResults) -> list[Drawing]:
     if largest_station(results) is None:
         return []
     bridge = bridge_of(results.config["track"])
-    return [Drawing("deck_damping", _caption(bridge), partial(_draw, bridge))]
+    found = _ratios(bridge)
+    return [Drawing("deck_damping", _caption(bridge, *found), partial(_draw, bridge, *found))]
 
 
 def bridge_of(track: dict[str, Any]) -> Bridge:
@@ -47,8 +48,14 @@ def bending_frequencies(bridge: Bridge) -> Array:
     return np.asarray(first * np.arange(1, _MODES + 1) ** 2)
 
 
-def _modal(bridge: Bridge, up_to: float) -> tuple[Array, Array]:
-    """Frequencies [Hz] and ratios of the longest deck's vertical modes, two beyond the limit."""
+def _ratios(bridge: Bridge) -> tuple[Array, Array]:
+    """Frequencies [Hz] and damping ratios of the modes that are marked."""
+    if (coefficients := bridge.rayleigh) is not None:
+        frequencies = bending_frequencies(bridge)
+        return frequencies, realised_ratio(coefficients, frequencies)
+    up_to = bridge.damped_up_to
+    assert up_to is not None
+    # vertical modes of the longest deck, two beyond the limit
     nodes = nodes_of(Track(structure=bridge), "euler", 1)
     longest = max(range(len(bridge.decks)), key=lambda k: np.ptp(bridge.decks[k]))
     modes = deck_modes(nodes, longest, True, 4.0 * up_to)
@@ -58,21 +65,16 @@ def _modal(bridge: Bridge, up_to: float) -> tuple[Array, Array]:
     return modes.frequencies[:count], ratios[:count]
 
 
-def _draw(bridge: Bridge) -> Figure:
+def _draw(bridge: Bridge, modes: Array, ratios: Array) -> Figure:
     figure = new_figure(2.4)
     axes = figure.subplots()
-    if (coefficients := bridge.rayleigh) is None:
-        assert bridge.damped_up_to is not None
-        modes, ratios = _modal(bridge, bridge.damped_up_to)
-        label = "vertical modes of the longest deck"
-    else:
-        modes = bending_frequencies(bridge)
-        ratios, label = realised_ratio(coefficients, modes), "bending of the longest span"
+    coefficients = bridge.rayleigh
+    whose = "bending of the longest span" if coefficients else "vertical modes of the longest deck"
     frequency = np.geomspace(0.5 * modes[0], max(_UP_TO, 1.5 * modes[-1]), 200)
     if coefficients is not None:
         axes.plot(frequency, 100 * realised_ratio(coefficients, frequency), color=BLACK, lw=1.0)
     axes.plot(modes, 100 * ratios, ls="none", marker="s", ms=4, mfc="none", color=VERMILION,
-              label=label)  # fmt: skip
+              label=whose)  # fmt: skip
     axes.axhline(100 * bridge.deck.damping_ratio, color=GREY, lw=0.7, ls=(0, (4, 2)),
                  label="ratio asked for")  # fmt: skip
     axes.set(xscale="log", xlabel="Frequency (Hz)", ylabel="Damping ratio (%)")
@@ -92,20 +94,19 @@ def _told(frequencies: Array, ratios: Array) -> str:
     )
 
 
-def _caption(bridge: Bridge) -> str:
-    if (coefficients := bridge.rayleigh) is None:
-        assert bridge.damped_up_to is not None
+def _caption(bridge: Bridge, modes: Array, ratios: Array) -> str:
+    asked = number(100 * bridge.deck.damping_ratio, 3)
+    if bridge.damped_up_to is not None:
         return (
             "Damping ratio of the modes of the longest deck alone on its bearings, vertical: "
-            f"{_told(*_modal(bridge, bridge.damped_up_to))}. Every mode of a deck up to "
+            f"{_told(modes, ratios)}. Every mode of a deck up to "
             f"{number(bridge.damped_up_to, 3)} Hz has the ratio that was asked for, "
-            f"{number(100 * bridge.deck.damping_ratio, 3)} % (dashed), beside the dampers of its "
+            f"{asked} % (dashed), beside the dampers of its "
             "bearings; higher ones have those alone."
         )
-    modes = bending_frequencies(bridge)
     return (
         "Damping ratio of a deck over frequency, as Rayleigh's damping gives it: "
         f"ζ = a/(2ω) + bω/2. Squares: the first {_MODES} bending frequencies of the longest span, "
-        f"simply supported: {_told(modes, realised_ratio(coefficients, modes))}. Dashed: the "
-        f"ratio that was asked for, {number(100 * bridge.deck.damping_ratio, 3)} %."
+        f"simply supported: {_told(modes, ratios)}. Dashed: the "
+        f"ratio that was asked for, {asked} %."
     )

@@ -132,9 +132,7 @@ def third_octave_levels(
     low, high = (line, 0.5 / spacing) if band is None else band
     if not 0.0 < low <= high:
         raise InputError(f"third-octave levels: band is {band}; allowed: 0 < lowest <= highest")
-    k = np.arange(round(10.0 * np.log10(low)), round(10.0 * np.log10(high)) + 1)
-    centre = 10.0 ** (k / 10.0)
-    lower, upper = centre * 10.0**-0.05, centre * 10.0**0.05
+    centre, lower, upper = third_octaves(low, high)
     keep = (upper - lower >= line) & (upper <= 0.5 / spacing)
     centre, lower, upper = centre[keep], lower[keep], upper[keep]
     # each line stands for [f - line/2, f + line/2]; the cumulative integral is linear there
@@ -144,6 +142,13 @@ def third_octave_levels(
     with np.errstate(divide="ignore"):
         level = 10.0 * np.log10(np.maximum(mean_square, 0.0) / reference**2)
     return ThirdOctaves(nominal_centre(centre), centre, mean_square, level)
+
+
+def third_octaves(lowest: float, highest: float) -> tuple[Array, Array, Array]:
+    """Centres 10^(k/10), lower and upper ends of the bands with centres from lowest to highest."""
+    k = np.arange(round(10.0 * np.log10(lowest)), round(10.0 * np.log10(highest)) + 1)
+    centre = 10.0 ** (k / 10.0)
+    return centre, centre * 10.0**-0.05, centre * 10.0**0.05
 
 
 _NOMINAL = np.array([1.0, 1.25, 1.6, 2.0, 2.5, 3.15, 4.0, 5.0, 6.3, 8.0])

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactstudy.arrays import Array
-from contactstudy.irregularity.estimate import nominal_centre
+from contactstudy.irregularity.estimate import nominal_centre, third_octaves
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -82,9 +82,7 @@ def third_octaves_of_part(values: Array, part: slice, step: float) -> tuple[Arra
     faded[part.stop :] *= np.cos(0.5 * np.pi * np.arange(1, left + 1) / max(left, 1)) ** 2
     spectrum, frequency = np.fft.rfft(faded, 2 * n), np.fft.rfftfreq(2 * n, step)
     line, highest = 1.0 / ((part.stop - part.start) * step), 1.0 / (STEPS_A_PERIOD * step)
-    k = np.arange(round(10.0 * np.log10(line)), round(10.0 * np.log10(highest)) + 1)
-    centre = 10.0 ** (k / 10.0)
-    lower, upper = centre * 10.0**-0.05, centre * 10.0**0.05
+    centre, lower, upper = third_octaves(line, highest)
     kept = (upper - lower >= line) & (centre <= highest * 1.01)
     found = list[float]()
     for low, high in zip(lower[kept], upper[kept], strict=True):

@@ -15,11 +15,11 @@ from contactstudy.contact.point_steps import (
     LaneLaws,
     LaneRecord,
     LaneState,
-    Scheme,
     advance,
 )
 from contactstudy.dynamics.banded import LinearSystem
 from contactstudy.dynamics.columns import LocalColumns
+from contactstudy.dynamics.kinematics import Scheme
 from contactstudy.dynamics.lanes import LANES, lane_system
 from contactstudy.dynamics.stepper import Integrator, State
 from contactstudy.solvers.histories import Histories

@@ -15,9 +15,10 @@ from contactstudy.solvers.journey import Journey
 from contactstudy.solvers.observers import EachState
 from contactstudy.solvers.passage import Passage
 from contactstudy.solvers.point import point_contact
-from contactstudy.track.bridge import Bridge, Pier
+from contactstudy.track.bridge import Bridge
 from contactstudy.track.deck import GivenDeck
 from contactstudy.track.model import Ballast, DiscreteSupports, GivenRail, Track
+from contactstudy.track.pier import Pier
 from contactstudy.track.space_beam import displacement
 from contactstudy.track.structure import StructureTrack
 from contactstudy.vehicle import AxleLoads, Train, Vehicle, bare_wheel

@@ -6,7 +6,7 @@ import pytest
 from contactstudy.solvers.bridge_sensors import VARIABLES, motion_name
 from contactstudy.study.kinds.passage.execution import execute_run
 from contactstudy.study.kinds.passage.reading import parse_study
-from contactstudy.track.bridge import Pier
+from contactstudy.track.pier import Pier
 from contactstudy.track.structure_springs import FOOT_DEPTH
 
 TRACK = {

@@ -8,9 +8,10 @@ import scipy.sparse.linalg as spla
 
 from contactstudy.exceptions import InputError
 from contactstudy.track.beam import BeamTrack
-from contactstudy.track.bridge import Bridge, Pier, stretches
+from contactstudy.track.bridge import Bridge, stretches
 from contactstudy.track.deck import Antoing, Box32m, GivenDeck, rayleigh, realised_ratio
 from contactstudy.track.model import Ballast, DiscreteSupports, Slab, Track, WinklerFoundation
+from contactstudy.track.pier import Pier
 from contactstudy.track.receptance import receptance
 from contactstudy.track.space_beam import N_DOFS, UX, UY, UZ, displacement
 from contactstudy.track.structure import LEFT, RIGHT, StructureTrack

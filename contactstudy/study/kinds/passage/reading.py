@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import Any, cast
 
@@ -20,8 +21,8 @@ from contactstudy.study.kinds.passage.schema import (
 from contactstudy.study.kinds.passage.wrong_files import wrong_files
 from contactstudy.study.overrides import Overrides, override
 from contactstudy.study.study import TEXTS, read_texts
-from contactstudy.track.model import Track
 from contactstudy.validation import (
+    UnreadError,
     asked,
     complaint,
     did_you_mean,
@@ -93,7 +94,8 @@ def _fit(tables: dict[str, Any], given: bool) -> Iterator[str]:
     if track is None:
         return  # nobody knows how far the journey goes, nor how long a cell is
     if "solid" in tables and not (given and tables["solid"].given("cell_length")):
-        yield from asked(_fit_solid, tables, track)
+        with suppress(UnreadError):
+            tables["solid"] = tables["solid"].fitting(track)
     on_bridge = track.structure is not None
     if journey is None or irregularity is None or (on_bridge and vehicle is None):
         return
@@ -103,11 +105,6 @@ def _fit(tables: dict[str, Any], given: bool) -> Iterator[str]:
         tables["journey"] = journey
         own = (p for p in error.problems if p.startswith("Journey."))
         yield from (p.replace("Journey.", "journey.") for p in own)
-
-
-def _fit_solid(tables: dict[str, Any], track: Track) -> tuple[()]:
-    tables["solid"] = tables["solid"].fitting(track)
-    return ()
 
 
 def _runs(data: Any) -> tuple[dict[str, Any], list[str]]:

@@ -220,18 +220,7 @@ def _companion(results: StudyResults) -> Iterable[str]:
 
 def _count(n: int) -> str:
     words = (
-        "no",
-        "one",
-        "two",
-        "three",
-        "four",
-        "five",
-        "six",
-        "seven",
-        "eight",
-        "nine",
-        "ten",
-        "eleven",
-        "twelve",
-    )
+        "no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten",
+        "eleven", "twelve",
+    )  # fmt: skip
     return words[n] if n < len(words) else str(n)
