@@ -241,6 +241,10 @@ class Kind(ABC):
         """What a command prints in the end: texts and rich tables."""
         return ()
 
+    def doubts(self, results: StudyResults) -> Sequence[str]:
+        """What a command warns of in the end, because of which results may mean nothing."""
+        return ()
+
     def export(self, study: Any, out: Path, **options: str | None) -> str:
         """Write a static press for CalculiX; what to tell the user."""
         raise InputError(

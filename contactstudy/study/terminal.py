@@ -131,13 +131,23 @@ def print_results(results: StudyResults, out_dir: Path, console: Console) -> Non
     shown = summary if results.swept else find_kind(results.kind).summary
     for item in shown(results):
         console.print(item)
+    for doubt in doubts(results):
+        console.print(visible(f"warning: {doubt}"), soft_wrap=True)
     console.print(visible(f"results, figures and report: {out_dir}"), soft_wrap=True)
 
 
+def doubts(results: StudyResults) -> list[str]:
+    """What is to be warned of in a study's results, and in its companions'."""
+    own = [*find_kind(results.kind).doubts(results)]
+    for companion in results.companions:
+        own += [f"{companion.name}: {text}" for text in doubts(companion)]
+    return own
+
+
 def results_json(results: StudyResults, out_dir: Path) -> str:
-    """The same as JSON: where it is, metrics, and what failed."""
+    """The same as JSON: where it is, metrics, warnings, and what failed."""
     about = {name: getattr(results, name) for name in ("name", "title", "kind", "reference")}
-    told = {"metrics": results.metrics, "failures": results.failures}
+    told = {"metrics": results.metrics, "warnings": doubts(results), "failures": results.failures}
     return _json(about | {"out": str(out_dir)} | told)
 
 

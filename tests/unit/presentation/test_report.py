@@ -1,9 +1,13 @@
 """The report: pages, texts, special characters, equal bytes, wording that follows the values."""
 
+import io
+import json
 import math
 import re
+from pathlib import Path
 
 import pytest
+from rich.console import Console
 
 from contactstudy.plot.style import figure_style, new_figure, save
 from contactstudy.report import write_report
@@ -18,6 +22,7 @@ from contactstudy.study.kinds.passage.report import reference_error
 from contactstudy.study.kinds.passage.report.abstract import GRADES, abstract, grade
 from contactstudy.study.kinds.passage.report.naming import papers_scheme
 from contactstudy.study.kinds.passage.report.tables import run_table
+from contactstudy.study.terminal import doubts, print_results, results_json
 
 COST = {"seconds": {"setup": 1.25, "stepping": 0.375}, "peak_memory_mb": 187.5}
 A4 = (595.276, 841.89)  # points
@@ -452,6 +457,13 @@ def test_lost_contact_is_told_with_its_place(made, start, end, words):
     assert words in told
     if end is None:
         assert f"X = {float(run['position'][start]):.2f} m" in told and "mm above it" in told
+    # the terminal says so too, of a wheel that does not come back
+    warned = [text for text in doubts(other) if text.startswith("In point the wheel flies off")]
+    assert len(warned) == (end is None) and not doubts(study)
+    assert json.loads(results_json(other, Path("out")))["warnings"] == doubts(other)
+    console = Console(file=io.StringIO(), width=100)
+    print_results(other, Path("out"), console)
+    assert ("warning: In point the wheel" in console.file.getvalue()) == (end is None)
 
 
 def test_a_pulling_spring_has_not_lost_contact(made):

@@ -1,6 +1,6 @@
 """Where runs lose contact, or where a spring pulls, in words."""
 
-from collections.abc import Iterator
+from collections.abc import Container, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -37,24 +37,23 @@ class Lost:
     for_good: bool
 
 
+def flown_off(results: StudyResults) -> list[str]:
+    """Which wheels are off the rail for good, for the terminal."""
+    lost = _lost(results, _pulled(results))
+    return [_flown_off(name, one) for name, one in lost.items() if one.for_good]
+
+
 def sentences(results: StudyResults) -> Iterator[str]:
     """What is to be said of contact that is lost, of pulling springs, and of nothing of both."""
-    pulled = {n: low for n, run in results.runs.items() if (low := _pull(results, run)) < 0.0}
-    lost = {
-        n: found
-        for n, run in results.runs.items()
-        if n not in pulled and (found := lost_contact(run, fade_end(results))) is not None
-    }
+    pulled = _pulled(results)
+    lost = _lost(results, pulled)
     if not pulled and not lost:
         yield "Contact is never lost."
     if lost:
         yield f"Contact is lost at times in {listing([label(n) for n in lost])}."
     for name, one in lost.items():
         if one.for_good:
-            yield (
-                f"In {label(name)} the wheel flies off at X = {number(one.start, 4)} m and is not "
-                f"back on the rail at the end of the run{_height(one)}."
-            )
+            yield f"{_flown_off(label(name), one)}."
         elif one.share > 0.05:
             yield (
                 f"{label(name)} is without contact on {number(100 * one.share, 2)} % of the way, "
@@ -87,6 +86,20 @@ def lost_contact(run: xr.Dataset, start: float) -> Lost | None:
     )
 
 
+def _pulled(results: StudyResults) -> dict[str, float]:
+    """Runs whose spring pulls, with their least force [N]."""
+    return {n: low for n, run in results.runs.items() if (low := _pull(results, run)) < 0.0}
+
+
+def _lost(results: StudyResults, pulled: Container[str]) -> dict[str, Lost]:
+    """Runs that lose contact, but for those whose spring pulls instead."""
+    return {
+        n: found
+        for n, run in results.runs.items()
+        if n not in pulled and (found := lost_contact(run, fade_end(results))) is not None
+    }
+
+
 def _pull(results: StudyResults, run: xr.Dataset) -> float:
     """Least force in N behind the fade-in."""
     return float(np.min(values(run, _FORCE)[position(run) >= fade_end(results)], initial=0.0))
@@ -94,3 +107,10 @@ def _pull(results: StudyResults, run: xr.Dataset) -> float:
 
 def _height(one: Lost) -> str:
     return f", up to {number(1e3 * one.lift, 2)} mm above it" if np.isfinite(one.lift) else ""
+
+
+def _flown_off(name: str, one: Lost) -> str:
+    return (
+        f"In {name} the wheel flies off at X = {number(one.start, 4)} m and is not back on the rail "
+        f"at the end of the run{_height(one)}"
+    )
