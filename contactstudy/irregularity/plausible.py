@@ -7,11 +7,10 @@ import numpy as np
 
 from contactstudy.arrays import Array, BoolArray, IntArray
 from contactstudy.csv_rows import listed
+from contactstudy.irregularity.size import wrong_size
 
 LARGEST = 0.1
 """Largest level [m]: a rail that far off its mean is not travelled; the unit is wrong."""
-SMALLEST = 1e-7
-"""Least standard deviation of a level about its trend [m]: polished rails have more."""
 FEW_ROWS = 4
 """Rows that may be missing where no shortest wavelength is asked for."""
 
@@ -66,13 +65,10 @@ def implausible(
             for k in np.flatnonzero((np.abs(level) * metre > LARGEST) & ~placeholders)
         ],
     )
-    with np.errstate(over="ignore", invalid="ignore"):  # values beyond all sense are named above
-        about = float(np.std(level - np.polyval(np.polyfit(x, level, 1), x))) * metre
-    if np.any(level != level[0]) and about < SMALLEST:
-        problems.append(
-            f"{file}, column '{column}' has a standard deviation of {1e6 * about:.3g} um in "
-            f"{name}; allowed: at least {1e6 * SMALLEST:g} um (is the unit right?)"
-        )
+    if not np.any(np.abs(level) * metre > LARGEST) and (
+        complaint := wrong_size(file, x, level, column, unit)
+    ):
+        problems.append(complaint)
     if level[0] != 0.0 and np.all(level == level[0]):
         problems.append(f"{file}, column '{column}' is {level[0]:g} in all rows: a dead channel")
     return problems

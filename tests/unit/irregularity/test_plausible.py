@@ -135,6 +135,60 @@ def test_the_band_pass_is_sound_a_longest_wavelength_from_the_ends(tmp_path):
     assert rms < 0.12
 
 
+def waves(lengths, rms, spacing, long):
+    """Sinusoids of equal power with a given standard deviation, over so many metres."""
+    x = np.arange(0.0, long, spacing)
+    level = sum(np.sin(2 * np.pi * x / w + k) for k, w in enumerate(lengths))
+    return x, level * rms / level.std()
+
+
+TRACK, SHORT_WAVES = (4.0, 7.0, 13.0, 31.0, 57.0), (0.013, 0.03, 0.05, 0.1, 0.21)
+SIZES = [  # waves [m], rms [m], spacing and length [m]
+    (TRACK, 1e-4, 0.25, 200.0),  # the smoothest slab track
+    (TRACK, 1e-2, 0.25, 200.0),  # a siding
+    (SHORT_WAVES, 1.5e-7, 0.005, 50.0),  # ground rail
+    (SHORT_WAVES, 1e-6, 0.005, 100.0),
+    (SHORT_WAVES, 1e-4, 0.005, 20.0),  # corrugation
+    ((*SHORT_WAVES, 0.6, 1.3), 1e-6, 0.005, 100.0),
+    ((*TRACK, *SHORT_WAVES), 1e-3, 0.005, 100.0),
+    (TRACK, 1e-7, 0.25, 20.0),  # too short to tell
+]
+
+
+@pytest.mark.parametrize(("lengths", "rms", "spacing", "long"), SIZES)
+@pytest.mark.parametrize(("unit", "metre"), [("m", 1.0), ("mm", 1e-3), ("um", 1e-6)])
+def test_small_and_large_levels_are_read_in_every_unit(
+    tmp_path, lengths, rms, spacing, long, unit, metre
+):
+    x, level = waves(lengths, max(rms, 1.2e-7), spacing, long)
+    rows = [
+        ["x", "level"],
+        *([f"{a:.4f}", f"{b / metre:.12g}"] for a, b in zip(x, level, strict=True)),
+    ]
+    read(tmp_path, rows, unit=unit, wavelengths=None)
+
+
+@pytest.mark.parametrize(
+    ("lengths", "rms", "spacing", "band", "right", "stated"),
+    [
+        (TRACK, 1e-3, 0.25, "longer than 3 m of .* um rms", "m", "mm"),
+        (TRACK, 3e-3, 0.25, "longer than 3 m of .* um rms", "mm", "um"),
+        ((*TRACK, *SHORT_WAVES), 5e-4, 0.005, "longer than 3 m of .* um rms", "m", "mm"),
+        (SHORT_WAVES, 5e-6, 0.005, "shorter than 0.3 m of .* mm rms", "um", "mm"),
+        (SHORT_WAVES, 2e-5, 0.005, "shorter than 0.3 m of .* mm rms", "mm", "m"),
+    ],
+)
+def test_a_wrong_unit_is_told_by_the_waves(tmp_path, lengths, rms, spacing, band, right, stated):
+    metre = {"m": 1.0, "mm": 1e-3, "um": 1e-6}[right]
+    x, level = waves(lengths, rms, spacing, 100.0)
+    rows = [
+        ["x", "level"],
+        *([f"{a:.4f}", f"{b / metre:.12g}"] for a, b in zip(x, level, strict=True)),
+    ]
+    with pytest.raises(InputError, match=rf"read in {stated}, has waves {band}.*unit {right}\b"):
+        read(tmp_path, rows, unit=stated, wavelengths=None)
+
+
 @pytest.mark.parametrize("unit", ["mm", "m"])
 def test_a_level_of_next_to_nothing_has_the_wrong_unit(tmp_path, unit):
     """Metres that are called micrometres, and whatever else leaves less than a polished rail."""
@@ -159,6 +213,8 @@ def test_other_separators_are_named(tmp_path, mark, name):
 )
 def test_a_unit_in_the_columns_name_is_not_contradicted(tmp_path, name, unit):
     rows = cells(3)
+    if unit == "um":
+        rows[1:] = [[x, f"{1e3 * float(level):g}"] for x, level in rows[1:]]
     rows[0][1] = name
     with pytest.raises(InputError, match=r"says .* and is to be read in"):
         read(tmp_path, rows, level=name, unit=unit)
@@ -167,6 +223,8 @@ def test_a_unit_in_the_columns_name_is_not_contradicted(tmp_path, name, unit):
 @pytest.mark.parametrize(("name", "unit"), [("left_mm", "mm"), ("z (µm)", "um"), ("film", "mm")])
 def test_a_unit_in_the_columns_name_may_be_the_one_stated(tmp_path, name, unit):
     rows = cells(3)
+    if unit == "um":
+        rows[1:] = [[x, f"{1e3 * float(level):g}"] for x, level in rows[1:]]
     rows[0][1] = name
     assert read(tmp_path, rows, level=name, unit=unit).levels.size == ROWS
 
