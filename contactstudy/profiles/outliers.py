@@ -1,4 +1,4 @@
-"""Single points off a measured profile, and what the scatter left does to its curvature.
+"""Single points off a measured profile.
 
 Contact stresses follow the curvature, so curvature is the measure: a point off by d between
 neighbours a distance h away bends the curve there by 2 d/h^2.
@@ -9,7 +9,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from contactstudy.arrays import Array, BoolArray, IntArray
-from contactstudy.exceptions import InputError
 
 SHARPEST = 200.0
 """Curvature [1/m] that no profile has on its running surface: radii of 5 mm."""
@@ -19,10 +18,9 @@ MOST = 0.02
 """Share of the points that may be outliers."""
 LARGEST_RESIDUAL = 1e-4
 """Root mean square [m] above which a fit is none, of profiles and scans."""
-BEARABLE, WORST = 1.0, 10.0
-"""Errors of the curvature [1/m] that are said, and refused: a third and three times that of a 60E1
-crown. Of two bodies with curvatures about 3 and 12 1/m the first moves Hertz's peak pressure by
-about a twentieth, the second by more than a third."""
+BEARABLE = 1.0
+"""Error of the curvature [1/m] that is said: a third of that of a 60E1 crown. Of two bodies with
+curvatures about 3 and 12 1/m it moves Hertz's peak pressure by about a twentieth."""
 _SIGMAS = 6.0
 _LONGEST = 3  # points in a row that are outliers together
 _NEAR = 2  # points on either side that a point is compared with
@@ -177,52 +175,3 @@ class _Deviations:
         beyond = np.abs(self.off) > _SIGMAS * self.sigma
         k = int(np.argmax(np.where(beyond, self.bend, 0.0)))
         return {k: float(self.off[k])} if beyond[k] and self.bend[k] > SHARPEST else {}
-
-
-def scatter_of_rounding(points: Array, digits: Array | None = None) -> float:
-    """Standard deviation [m] of points that stand in single precision, from their distance.
-
-    Coordinates in the file are `digits`, by default the points themselves; 0 unless all of them are
-    numbers of single precision. A step q of rounding scatters by q/sqrt(12).
-    """
-    given = points if digits is None else digits
-    off = np.abs(given.astype(np.float32).astype(float) - given)
-    if not given.any() or np.any(off > 1e-15 * np.abs(given)):  # that of a change of unit and back
-        return 0.0
-    largest = np.abs(given).max()
-    scale = np.abs(points).max() / largest
-    return float(np.spacing(np.float32(largest))) * float(scale) / np.sqrt(12.0)
-
-
-def doubted(name: str, scatter: float, points: int, length: float, knots: int) -> str:
-    """What scatter [m] does to a fitted curve's curvature, "" where it can be borne.
-
-    Raises
-    ------
-    InputError
-        Where no contact stress can be had from such a curve.
-    """
-    error = curvature_error(scatter, points, length, knots)
-    if error <= BEARABLE:
-        return ""
-    told = (
-        f"{name}: its points scatter by {1e6 * scatter:.3g} um, which leaves the curvature "
-        f"uncertain by {error:.2g} 1/m (a 60E1 crown has 3.3 1/m)"
-    )
-    if error > WORST:
-        raise InputError(
-            f"{told}; allowed: up to {WORST:g} 1/m (measure more points, or smooth them, or move a "
-            "file in single precision to its origin)"
-        )
-    return told
-
-
-def curvature_error(scatter: float, points: int, length: float, knots: int) -> float:
-    """Standard error of a fitted curve's curvature [1/m] from the scatter of its points [m].
-
-    Between knots L apart n points leave a wave of length 2 L with the amplitude scatter/sqrt(n),
-    and with the curvature of it, times (pi/L)^2.
-    """
-    apart = length / max(knots - 1, 1)
-    each = max(points * apart / length, 1.0)
-    return float(scatter / np.sqrt(each) * (np.pi / apart) ** 2)

@@ -22,12 +22,12 @@ from contactstudy.profiles.outliers import (
     KNOTS,
     LARGEST_RESIDUAL,
     MOST,
-    doubted,
     most,
     outliers,
     steps,
 )
 from contactstudy.profiles.profile_file import SUFFIXES, FilePoints, read_points
+from contactstudy.profiles.scatter import doubted
 from contactstudy.profiles.worn_csv import points_of_csv
 from contactstudy.profiles.worn_faults import POINTS, wrong_extent, wrong_order
 
@@ -172,12 +172,14 @@ def fitted_curve(
     points: Array, body: Body, smoothing: float = KNOTS, name: str = "worn profile"
 ) -> ProfileCurve:
     """Smooth profile through points (n, 2) = (y, z) along which y grows [m], as in `worn_curve`."""
-    fits = [fit_cloud(points, smoothing * factor, name) for factor in SPACINGS]
+    spacings = [smoothing * factor for factor in SPACINGS]
+    fits = [fit_cloud(points, spacing, name) for spacing in spacings]
     fit = min(fits, key=lambda fit: fit.criterion)
     # z = 0 at y = 0: Newton along the curve from the nearest point
     s = float(fit.s[np.argmin(np.abs(points[:, 0]))])
     for _ in range(20):
         s = float(np.clip(s - fit.spline(s)[0] / fit.spline(s, 1)[0], 0.0, fit.length))
     down = np.array([0.0, float(fit.spline(s)[1])])
-    told = doubted(name, fit.scatter, len(points), fit.length, len(fit.knots))
-    return replace(fit.curve(down, body == "rail", name), notes=(told,) if told else ())
+    curve = fit.curve(down, body == "rail", name)
+    told = doubted(curve, fit.scatter, len(points), spacings)
+    return replace(curve, notes=(told,) if told else ())

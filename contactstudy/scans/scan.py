@@ -10,10 +10,11 @@ import numpy as np
 
 from contactstudy.exceptions import InputError
 from contactstudy.profiles.curve import ProfileCurve
-from contactstudy.profiles.outliers import LARGEST_RESIDUAL, doubted, scatter_of_rounding
+from contactstudy.profiles.outliers import LARGEST_RESIDUAL
 from contactstudy.profiles.scan_fit import STEEPEST, ScanFit
 from contactstudy.profiles.scanned_rail import RAIL_DEPTH, fit_rail_head
 from contactstudy.profiles.scanned_wheel import WHEEL_DEPTH, fit_wheel_tread
+from contactstudy.profiles.scatter import doubted, scatter_of_rounding
 from contactstudy.profiles.worn import Body
 from contactstudy.scans.faults import triangles
 from contactstudy.scans.reading import OWN3, UNITS, Ways3, read_mesh
@@ -114,8 +115,7 @@ def read_scan(
         )
     rounding = scatter_of_rounding(points, points / UNITS[unit])
     try:
-        low, high = fit.curve.s_range
-        doubt = doubted(name, max(fit.scatter, rounding), fit.points, high - low, fit.knots)
+        doubt = doubted(fit.curve, max(fit.scatter, rounding), fit.points, (smoothing,))
     except InputError as error:
         # who raises the limit of the residual has seen it
         problems += error.problems if residual_limit <= LARGEST_RESIDUAL else ()

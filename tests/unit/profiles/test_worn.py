@@ -5,7 +5,6 @@ import pytest
 
 from contactstudy.exceptions import InputError
 from contactstudy.profiles.named import rail_curve, wheel_curve
-from contactstudy.profiles.outliers import doubted
 from contactstudy.profiles.worn import worn_curve
 
 # arc lengths sampled: 60E1 down to the side faces, S1002 from the flange's face on
@@ -151,15 +150,6 @@ def test_a_wheel_measured_from_its_flange_back_is_refused(tmp_path):
     points = sampled("S1002") + np.array([0.03, 0.0])
     with pytest.raises(InputError, match=r"flange's tip is at y = .* from the tape circle"):
         worn_curve(write(tmp_path / "back.csv", points), "wheel")
-
-
-def test_scatter_is_judged_by_the_curvature_that_it_leaves():
-    """One limit for profiles and scans: points to a knot and knots apart decide, not distance."""
-    assert doubted("x", 0.1e-6, 400, 0.08, 80) == ""
-    assert "uncertain by" in doubted("x", 1e-6, 400, 0.08, 80)
-    with pytest.raises(InputError, match="allowed: up to 10 1/m"):
-        doubted("x", 5e-6, 400, 0.08, 80)
-    assert doubted("x", 5e-6, 400, 0.08, 10) == ""
 
 
 @pytest.mark.parametrize("name", ["60E1", "S1002"])

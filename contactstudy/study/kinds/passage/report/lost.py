@@ -111,6 +111,6 @@ def _height(one: Lost) -> str:
 
 def _flown_off(name: str, one: Lost) -> str:
     return (
-        f"In {name} the wheel flies off at X = {number(one.start, 4)} m and is not back on the rail "
-        f"at the end of the run{_height(one)}"
+        f"In {name} the wheel flies off at X = {number(one.start, 4)} m and is not back on the "
+        f"rail at the end of the run{_height(one)}"
     )
