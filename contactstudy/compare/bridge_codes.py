@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from contactstudy.arrays import Array
+from contactstudy.compare.low_pass import low_pass, passes
 from contactstudy.exceptions import InputError
 from contactstudy.validation import not_negative, positive, raise_if
 
@@ -88,6 +89,28 @@ def load_factor(length: float, careful_maintenance: bool = False) -> float:
     if careful_maintenance:
         return min(max(1.44 / root + 0.82, 1.0), 1.67)
     return min(max(2.16 / root + 0.73, 1.0), 2.0)
+
+
+_LOWEST_CUT = 30.0  # Hz
+
+
+def cut_off(frequency: float) -> float:
+    """Up to which frequency the deck's acceleration counts for EN 1990, A2.4.4.2.1(4) [Hz].
+
+    The largest of 30 Hz, 1.5 times the first frequency and the third, 9 times the first of a beam.
+    """
+    return max(_LOWEST_CUT, 9.0 * frequency)
+
+
+def counted_acceleration(values: ArrayLike, time_step: float, frequency: float) -> float | None:
+    """Largest acceleration (n,) up to the `cut_off` of a first frequency [Hz], in size.
+
+    None where samples are too far apart for the filter.
+    """
+    cut = cut_off(frequency)
+    if not passes(time_step, cut):
+        return None
+    return float(np.max(np.abs(low_pass(values, time_step, cut))))
 
 
 def amplification(dynamic: ArrayLike, static: ArrayLike) -> float:

@@ -140,9 +140,7 @@ def _marked_text(results: StudyResults) -> str:
 def _spectra(results: StudyResults, station: float) -> tuple[str, Any]:
     found = {name: spectrum(run, station) for name, run in results.runs.items()}
     bridge = bridge_of(results.config["track"])
-    supports = bridge.supports
-    k = int(np.clip(np.searchsorted(supports, station) - 1, 0, len(bridge.spans) - 1))
-    first = bridge.deck.frequency(bridge.spans[k])
+    first = bridge.deck.frequency(bridge.span_at(station))
     highest = max(_HIGHEST, 4.0 * first)
     told = []
     for name, (f, a) in found.items():

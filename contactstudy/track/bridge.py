@@ -159,6 +159,11 @@ class Bridge(Parameters):
         """X of abutments and piers, (n_spans + 1,) m."""
         return self.approach_before + np.concatenate([[0.0], np.cumsum(self.spans)])
 
+    def span_at(self, x: float) -> float:
+        """Length of the span at X, beside the bridge of the nearest one [m]."""
+        k = int(np.searchsorted(self.supports, x)) - 1
+        return self.spans[min(max(k, 0), len(self.spans) - 1)]
+
     @cached_property
     def decks(self) -> tuple[Array, ...]:
         """X of the supports of each deck [m]."""

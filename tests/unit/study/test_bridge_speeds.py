@@ -9,12 +9,15 @@ import pytest
 import xarray as xr
 
 from contactstudy.figures.axes import lines
+from contactstudy.plot.text import number
 from contactstudy.study.axes.shown import Shown
 from contactstudy.study.kind import Marks, Quantity
 from contactstudy.study.kinds.passage import measures
 from contactstudy.study.kinds.passage.bridge_speeds import marks, speed_marks
 from contactstudy.study.kinds.passage.execution import execute_run
+from contactstudy.study.kinds.passage.report.deck_table import deck_sentences, deck_table
 from contactstudy.study.loading import load_study
+from contactstudy.track.bridge import Bridge
 from contactstudy.vehicle import AxleLoads, FreightWagons, HighSpeedLoadModel, Train
 
 F1 = math.pi / (2 * 32.0**2) * math.sqrt(34.5e9 * 10.947 / 34e3)
@@ -103,14 +106,39 @@ def test_the_shipped_sweep_is_louder_at_resonance_than_at_cancellation():
 
 
 def test_largest_size_over_the_stations_of_decks():
-    values = [[np.nan] * 3, [0.0, -2.0, 1.0], [0.0, 0.5, 1.5]]
+    time = np.arange(0.0, 2.0, 1e-3)
+    wave = np.sin(2 * np.pi * 10 * time) + 5.0 * np.sin(2 * np.pi * 400 * time)
+    there = np.array([[np.nan], [2.0], [1.0]])  # the first station is beside the decks
+    signals = {"deck_displacement": there * time, "deck_acceleration": there * wave}
     run = xr.Dataset(
-        {
-            "position": (("wheel", "time"), [[0.0, 1.0, 2.0]]),
-            "deck_displacement": (("station", "time"), values),
-            "deck_acceleration": (("station", "time"), np.full((3, 3), np.nan)),
-        }
+        {name: (("station", "time"), values) for name, values in signals.items()},
+        {"station": [5.0, 66.0, 90.0], "time": time},
     )
-    found = {}
-    measures._own(run, 0.0, lambda variable: found.setdefault(variable, {}))
-    assert found["largest_of_deck"] == {"deck_displacement": 2.0}
+    found = measures.largest_of_deck(run, Bridge(spans=(32.0, 20.0)))
+    # EN 1990 counts up to 9 f1 = 46 and 118 Hz here
+    assert found["deck_acceleration"] == pytest.approx(2.0, rel=0.05)
+    assert found["deck_displacement"] == pytest.approx(2.0 * time[-1])
+    assert measures.largest_of_deck(run.isel(station=[0]), Bridge()) == {}
+    few = measures.largest_of_deck(run.isel(time=slice(None, None, 100)), Bridge())
+    assert list(few) == ["deck_displacement"]  # samples too few for the filter
+
+
+def test_a_sweep_has_the_acceleration_of_the_report_of_a_run():
+    """Both as EN 1990 counts it, of a signal with louder high frequencies."""
+    study = load_study("train_speeds", quick=True).study
+    study = replace(
+        study,
+        journey=study.journey.changed(speed=90.0, time_step=2e-3),
+        runs={"moving_force": study.runs["moving_force"]},
+        reference=None,
+    )
+    run = execute_run(study, "moving_force")
+    run["deck_acceleration"] = run["deck_acceleration"] + np.sin(2 * np.pi * 200 * run["time"])
+    swept = measures.measure(study, {"moving_force": run})["largest_of_deck"]["values"]
+    report = SimpleNamespace(runs={"moving_force": run}, config=study.config())
+    (table,) = deck_table(report)
+    cells = dict(zip((c["title"] for c in table["columns"]), table["rows"][0], strict=True))
+    counted = swept["moving_force"]["deck_acceleration"]
+    assert number(counted, 2) == cells["up to 46.0 Hz"]
+    assert f"up to 46.0 Hz at most {number(counted, 2)} m/s²" in deck_sentences(report)[0]
+    assert counted < 0.5 < float(np.abs(run["deck_acceleration"]).max())

@@ -33,7 +33,7 @@ class PassageKind(Kind):
         Quantity("relative_l2", f"Error of the {_NAME}, total (%)", _TOTAL, 100.0),
         Quantity("largest", f"Largest {_NAME} (kN)", {"signal": (_FORCE,)}, 1e-3),
         Quantity("largest_of_deck", "Largest displacement of the deck (mm)", _DECK[0], 1e3),
-        Quantity("largest_of_deck", "Largest acceleration of the deck (m/s²)", _DECK[1]),
+        Quantity("largest_of_deck", "Largest acceleration of the deck, EN 1990 (m/s²)", _DECK[1]),
         Quantity("lost_time", "Time without contact (ms)", {}, 1e3),
         Quantity("impulse", "Impulse beyond the static load (N s)"),
         Quantity("from_finest", f"Difference of the {_NAME} from the finest (%)", _PART, 100.0),

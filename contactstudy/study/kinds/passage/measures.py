@@ -6,7 +6,8 @@
     correlation, linf, rms (run, signal)          all these against the reference
     static, smallest, largest (run, signal)       at rest, and behind the fade-in
     root_mean_square (run, signal, part)          of the dynamic and the irregularity's part
-    largest_of_deck (run, signal)                 size, over all stations on decks
+    largest_of_deck (run, signal)                 size, over all stations on decks; accelerations
+                                                  up to the frequency that EN 1990 counts
     amplification (run)                           dynamic factor of the deck, where it moves most
     contact_lost (run)                            share of the way without contact
     of defects also those of `contactstudy.study.kinds.passage.impacts`
@@ -22,7 +23,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from contactstudy.compare.bridge_codes import amplification
+from contactstudy.compare.bridge_codes import amplification, counted_acceleration
 from contactstudy.compare.signals import position, same_way
 from contactstudy.study.axes.measured import Measured, measured
 from contactstudy.study.kinds.passage.impacts import closed_forms, impacts
@@ -32,6 +33,8 @@ from contactstudy.study.kinds.passage.twins import OF_DECK, SMOOTH, SOFTER, with
 
 if TYPE_CHECKING:
     import xarray as xr
+
+    from contactstudy.track.bridge import Bridge
 
 PARTS = ("total", "dynamic", "irregularity")
 _RUN = ["run", "signal"]
@@ -48,7 +51,11 @@ _OWN = {
     "smallest": (f"smallest value behind the fade-in, {_UNIT}", _RUN),
     "largest": (f"largest value behind the fade-in, {_UNIT}", _RUN),
     "root_mean_square": (f"root mean square of a part of the signal, {_UNIT}", [*_RUN, "part"]),
-    "largest_of_deck": (f"largest size over the stations on decks, {_UNIT}", _RUN),
+    "largest_of_deck": (
+        f"largest size over the stations on decks, {_UNIT}; of the acceleration that up to the "
+        "frequency of EN 1990, A2.4.4.2.1(4)",
+        _RUN,
+    ),
     "amplification": (
         "largest dynamic over largest static deflection of the deck, at the station of the largest",
         ["run"],
@@ -65,6 +72,9 @@ def measure(study: Study, found: Mapping[str, Any]) -> Measured:
     for name, run in runs.items():
         _own(run, start, lambda variable, name=name: made[variable]["values"].setdefault(name, {}))
         made["contact_lost"]["values"][name] = _lost(run, start)
+        bridge = study.track.structure
+        if bridge is not None and (most := largest_of_deck(run, bridge)):
+            made["largest_of_deck"]["values"][name] = most
         if (factor := _amplification(run)) is not None:
             made["amplification"]["values"][name] = factor
         reference = None if study.reference is None else runs[study.reference]
@@ -106,9 +116,6 @@ def _by_part(entry: Mapping[str, Any], name: str) -> dict[str, Any]:
 def _own(run: xr.Dataset, start: float, of: Any) -> None:
     """Enter what a run's histories are by themselves."""
     x = position(run)
-    for signal in OF_DECK:
-        if signal in run and np.isfinite(run[signal].values).any():
-            of("largest_of_deck")[signal] = float(np.nanmax(np.abs(run[signal].values)))
     for name, variable in run.data_vars.items():
         signal = str(name)
         twin = signal.endswith((SMOOTH, SOFTER))
@@ -126,6 +133,22 @@ def _own(run: xr.Dataset, start: float, of: Any) -> None:
         parts = {k: behind(v, x, start) for k, v in parts_of(run, signal).items()}
         squares = {part: float(np.sqrt(np.nanmean(v**2))) for part, v in parts.items()}
         of("root_mean_square")[signal] = squares
+
+
+def largest_of_deck(run: xr.Dataset, bridge: Bridge) -> dict[str, float]:
+    """Of a run's `OF_DECK` the largest sizes, of those that are known at a station."""
+    found: dict[str, list[float | None]] = {signal: [] for signal in OF_DECK}
+    for station in run["station"].values if "station" in run.dims else ():
+        here = run.sel(station=station)
+        if not np.isfinite(here["deck_displacement"].values).all():
+            continue
+        frequency = bridge.deck.frequency(bridge.span_at(float(station)))
+        step = float(np.diff(here["time"].values[:2])[0])
+        found["deck_displacement"].append(float(np.abs(here["deck_displacement"]).max()))
+        counted = counted_acceleration(here["deck_acceleration"].values, step, frequency)
+        found["deck_acceleration"].append(counted)
+    known = {signal: [v for v in values if v is not None] for signal, values in found.items()}
+    return {signal: max(values) for signal, values in known.items() if values}
 
 
 def _amplification(run: xr.Dataset) -> float | None:

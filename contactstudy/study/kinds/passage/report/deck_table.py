@@ -10,11 +10,12 @@ import xarray as xr
 from contactstudy.compare.bridge_codes import (
     Limit,
     amplification,
+    counted_acceleration,
+    cut_off,
     dynamic_factor,
     limits,
     track_twist,
 )
-from contactstudy.compare.low_pass import low_pass, passes
 from contactstudy.figures.deck import largest_station
 from contactstudy.figures.deck_damping import bridge_of
 from contactstudy.plot.text import label, number
@@ -29,7 +30,6 @@ _LIMITS = (
     "twist over 3 m",
     "first lateral frequency, at least",
 )
-_LOWEST_CUT = 30.0  # Hz, EN 1990
 
 
 def deck_sentences(results: StudyResults) -> list[str]:
@@ -37,17 +37,22 @@ def deck_sentences(results: StudyResults) -> list[str]:
     station = largest_station(results)
     if station is None:
         return []
+    frequency = _span(results.config["track"], station)[1]
     factors, accelerations = dict[str, float](), dict[str, float]()
     for name, run in results.runs.items():
         here = run.sel(station=station)
         dynamic, static = here["deck_displacement"].values, here["deck_static"].values
         factors[name] = amplification(dynamic, static)
-        accelerations[name] = float(np.abs(here["deck_acceleration"]).max())
-    return [
+        if (counted := _counted(here["deck_acceleration"], frequency)) is not None:
+            accelerations[name] = counted
+    told = (
         f"The deck moves most at X = {number(station, 4)} m. There its deflection is "
-        f"{_ends(factors)} times that under the static loads, its acceleration at most "
-        f"{_ends(accelerations, 2)} m/s²."
-    ]
+        f"{_ends(factors)} times that under the static loads"
+    )
+    if accelerations:
+        told += f", its acceleration up to {number(cut_off(frequency), 3)} Hz at most "
+        told += f"{_ends(accelerations, 2)} m/s²"
+    return [f"{told}."]
 
 
 def _ends(values: dict[str, float], digits: int = 3) -> str:
@@ -64,12 +69,13 @@ def deck_table(results: StudyResults) -> list[Block]:
     station = largest_station(results)
     if station is None:
         return []
-    rows, cut = [], cut_off(_span(results.config["track"], station)[1])
+    rows, frequency = [], _span(results.config["track"], station)[1]
     twists = {name: _twist(run) for name, run in results.runs.items()}
     twisted = any(twist is not None for twist in twists.values())
     for name, run in results.runs.items():
         here = run.sel(station=station)
         dynamic, static = here["deck_displacement"].values, here["deck_static"].values
+        counted = _counted(here["deck_acceleration"], frequency)
         rows.append(
             [
                 label(name),
@@ -77,30 +83,20 @@ def deck_table(results: StudyResults) -> list[Block]:
                 number(1e3 * float(np.abs(static).max()), 3),
                 number(amplification(dynamic, static), 3),
                 number(float(np.abs(here["deck_acceleration"]).max()), 2),
-                _filtered(here["deck_acceleration"], cut),
+                "–" if counted is None else number(counted, 2),
             ]
         )
         if twisted:
             twist = twists[name]
             rows[-1].append("–" if twist is None else number(1e3 * twist, 2))
     caption = f"The deck at X = {number(station, 4)} m."
-    columns = [*_COLUMNS, f"up to {number(cut, 3)} Hz"] + ["Twist (mm)"] * twisted
+    columns = [*_COLUMNS, f"up to {number(cut_off(frequency), 3)} Hz"] + ["Twist (mm)"] * twisted
     return [table(columns, rows, caption, 1, _beside(results, station, twisted)) | {"size": 8}]
 
 
-def cut_off(frequency: float) -> float:
-    """Up to which frequency the deck's acceleration counts for EN 1990, A2.4.4.2.1(4) [Hz].
-
-    The largest of 30 Hz, 1.5 times the first frequency and the third, 9 times the first of a beam.
-    """
-    return max(_LOWEST_CUT, 9.0 * frequency)
-
-
-def _filtered(acceleration: xr.DataArray, cut: float) -> str:
+def _counted(acceleration: xr.DataArray, frequency: float) -> float | None:
     step = float(np.diff(acceleration["time"].values[:2])[0])
-    if not passes(step, cut):
-        return "–"
-    return number(float(np.abs(low_pass(acceleration.values, step, cut)).max()), 2)
+    return counted_acceleration(acceleration.values, step, frequency)
 
 
 def _twist(run: xr.Dataset) -> float | None:
@@ -159,5 +155,5 @@ def _lateral(track: dict[str, Any], span: float, limit: Limit) -> list[str]:
 def _span(track: dict[str, Any], station: float) -> tuple[float, float]:
     """Length of the span under a station [m], and its first frequency simply supported [Hz]."""
     bridge = bridge_of(track)
-    k = int(np.clip(np.searchsorted(bridge.supports, station) - 1, 0, len(bridge.spans) - 1))
-    return bridge.spans[k], bridge.deck.frequency(bridge.spans[k])
+    span = bridge.span_at(station)
+    return span, bridge.deck.frequency(span)
