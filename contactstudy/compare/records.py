@@ -18,6 +18,8 @@ from contactstudy.exceptions import InputError
 METHOD = "largest correlation of all channels together, to a part of a sample"
 """How `aligned` finds the shift."""
 _SHARE = 0.5  # of the shorter of two records, that must lie over the other
+_REVERSED = 0.5  # correlation of a reversed channel, at least
+_CLEARLY = 0.3  # by which it is above that of the channel as it is, each at its own shift
 
 
 @dataclass(frozen=True)
@@ -136,17 +138,41 @@ def agreement(over: Overlay, channel: int) -> Agreement:
     )
 
 
+def is_reversed(
+    computed: tuple[Array, Array], measured: tuple[Array, Array], shift: float, fitted: bool
+) -> bool:
+    """Whether a channel (1, n) agrees clearly better with the opposite sign.
+
+    That is told at the shift [s]; if it was fitted also with each sign at the shift that suits it,
+    for that of all channels together means nothing if many of them are reversed.
+    """
+    over = overlaid(computed, measured, Alignment(shift, 1.0))
+    there = norms.correlation(over.computed, over.measured, over.time) < -_REVERSED
+    if not fitted:
+        return there
+    t, b = measured
+    own, opposite = (float(_over_shifts(computed, (t, s * b))[2].max()) for s in (1.0, -1.0))
+    return opposite > max(_REVERSED, own if there else own + _CLEARLY)
+
+
 def _best_shift(computed: tuple[Array, Array], measured: tuple[Array, Array]) -> float:
+    lags, step, found = _over_shifts(computed, measured)
+    best = int(np.argmax(found))
+    # the record begins `lag` samples into the run
+    return float(computed[0][0] - measured[0][0] + (lags[best] + _vertex(found, best)) * step)
+
+
+def _over_shifts(
+    computed: tuple[Array, Array], measured: tuple[Array, Array]
+) -> tuple[Array, float, Array]:
+    """Lags, samples of a step [s] that suits both, and the correlation at each lag."""
     (t, a), (t_record, b) = computed, measured
     step = max(_step(t), _step(t_record))
     grids = [np.arange(x[0], x[-1] + 0.5 * step, step) for x in (t, t_record)]
     ours = np.array([np.interp(grids[0], t, row) for row in a])
     theirs = np.array([np.interp(grids[1], t_record, row) for row in b])
     lags, found = _correlations(ours, theirs)
-    best = int(np.argmax(found))
-    part = _vertex(found, best)
-    # grid 1 begins `lag` samples into grid 0
-    return float(t[0] - t_record[0] + (lags[best] + part) * step)
+    return lags, step, found
 
 
 def _correlations(a: Array, b: Array) -> tuple[Array, Array]:

@@ -1,7 +1,14 @@
 import numpy as np
 import pytest
 
-from contactstudy.compare.records import Alignment, _correlations, agreement, aligned, overlaid
+from contactstudy.compare.records import (
+    Alignment,
+    _correlations,
+    agreement,
+    aligned,
+    is_reversed,
+    overlaid,
+)
 from contactstudy.exceptions import InputError
 
 
@@ -85,6 +92,30 @@ def test_negative_peaks_keep_their_sign():
     t = np.linspace(0.0, 4.0, 2001)
     over = overlaid((t, -pulses(t)[None]), (t, -2.0 * pulses(t)[None]), Alignment(0.0, 1.0))
     assert agreement(over, 0).peak_ratio == pytest.approx(0.5)
+
+
+def swing(t):
+    """What agrees nearly as well half a period later, with the opposite sign."""
+    return np.exp(-((t - 1.5) ** 2)) * np.sin(2 * np.pi * 4 * t)
+
+
+@pytest.mark.parametrize("of", [pulses, swing])
+@pytest.mark.parametrize("fitted", [True, False])
+@pytest.mark.parametrize("signs", [(1, 1, 1), (1, 1, -1), (-1, -1, -1)])
+def test_channels_of_the_opposite_sign_are_named(signs, fitted, of):
+    if of is swing and fitted and len(set(signs)) == 1:
+        return  # no other channel tells a reversed swing from one half a period later
+    t, t_record = np.linspace(0.0, 4.0, 2001), np.arange(0.0, 6.0, 1 / 700)
+    run = t, np.array([of(t - k * 0.2) for k in range(3)])
+    noise = 0.1 * np.random.default_rng(2).normal(size=(3, len(t_record)))
+    rows = [sign * 2.0 * of(t_record + 0.3 - k * 0.2) for k, sign in enumerate(signs)]
+    record = t_record, np.array(rows) + noise
+    shift = aligned(run, record).shift if fitted else 0.3
+    found = [
+        is_reversed((t, run[1][k : k + 1]), (t_record, record[1][k : k + 1]), shift, fitted)
+        for k in range(3)
+    ]
+    assert found == [sign < 0 for sign in signs]
 
 
 def test_records_without_a_common_time_or_without_a_signal():

@@ -1,12 +1,18 @@
 """Passages held against a measured record: read, refused, laid over each other, drawn."""
 
+import re
+
 import numpy as np
 import pytest
 
 from contactstudy.exceptions import InputError
 from contactstudy.figures import measured as figure
 from contactstudy.study.kinds.passage.execution import execute_run
-from contactstudy.study.kinds.passage.held_against import held_against, to_dataset
+from contactstudy.study.kinds.passage.held_against import (
+    held_against,
+    reversed_sentences,
+    to_dataset,
+)
 from contactstudy.study.kinds.passage.inputs import read_inputs, work
 from contactstudy.study.kinds.passage.record import MeasuredRecord
 from contactstudy.study.kinds.passage.report.measured_table import (
@@ -76,6 +82,24 @@ def test_a_record_of_the_run_itself_is_found_again(tmp_path, run):
     for one in found["channels"].values():
         assert one["correlation"] > 0.9999 and one["normalised_error"] < 0.01
         assert one["peak_ratio"] == pytest.approx(1.0, abs=2e-3) and abs(one["timing"]) < 1e-4
+
+
+@pytest.mark.parametrize("keys", ['scale = "fitted"', "shift = -0.2", 'zero = "fitted"'])
+def test_a_gauge_that_counts_the_other_way_is_named(tmp_path, run, keys):
+    written(tmp_path, run)
+    lines = [line.split(",") for line in (tmp_path / "record.csv").read_text().splitlines()]
+    turned = [",".join([t, str(-float(a)), b]) for t, a, b in lines[1:]]
+    (tmp_path / "record.csv").write_text("\n".join(["t,pad,bay", *turned]))
+    found = held_against(study(tmp_path, keys).measured, {"one": run})["runs"]
+    (told,) = reversed_sentences(found)
+    assert told.startswith("pad agrees better with the opposite sign")
+    (instead,) = re.findall('"(.*)"', told)
+    assert instead == "pad = -station_displacement at 6 m"
+    path = tmp_path / "record.toml"
+    path.write_text(path.read_text().replace("pad = station_displacement at 6 m", instead))
+    mended = held_against(load_study(path).measured, {"one": run})["runs"]
+    assert reversed_sentences(mended) == []
+    assert mended["one"]["channels"]["pad"]["correlation"] > 0.9999
 
 
 def test_units_rates_and_given_values(tmp_path, run):

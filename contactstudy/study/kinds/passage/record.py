@@ -27,7 +27,9 @@ from contactstudy.vehicle import Vehicle
 if TYPE_CHECKING:
     import xarray as xr
 
-_CHANNEL = re.compile(r"(?P<column>[^=]+?)\s*=\s*(?P<signal>\w+)(?:\s+at\s+(?P<at>.+))?")
+_CHANNEL = re.compile(
+    r"(?P<column>[^=]+?)\s*=\s*(?P<sign>-?)\s*(?P<signal>\w+)(?:\s+at\s+(?P<at>.+))?"
+)
 _FORM = 'must be like "COLUMN = SIGNAL" or "COLUMN = SIGNAL at 12.5 m"'
 _FEWEST = 3  # samples of a record, and of them within the run's time
 _SECONDS = {"s": 1.0, "ms": 1e-3, "us": 1e-6}
@@ -40,6 +42,8 @@ class Channel:
     column: str
     signal: str
     at: float | None
+    #: 1, or -1 for a column that counts the other way.
+    sign: float = 1.0
 
     @property
     def unit(self) -> str:
@@ -56,6 +60,12 @@ class Channel:
         """The signal (n,) of a run."""
         return at_station(run, self.signal, self.at)
 
+    @property
+    def reversed(self) -> str:
+        """How the channel is written with the opposite sign."""
+        where = "" if self.at is None else f" at {self.at:g} m"
+        return f"{self.column} = {'-' if self.sign > 0.0 else ''}{self.signal}{where}"
+
 
 @dataclass(frozen=True)
 class Record:
@@ -69,12 +79,14 @@ class Record:
 class MeasuredRecord(Parameters):
     """A measured record, which is laid over the computed signals and compared by the same norms.
 
-    ``channels = ["mid = station_displacement at 12.5 m"]`` says which column is which signal.
+    ``channels = ["mid = station_displacement at 12.5 m"]`` says which column is which signal;
+    ``"mid = -deck_strain at 12.5 m"`` is a column of the opposite sign.
     """
 
     file: Annotated[str, File(), "CSV file with the record; nothing is compared without"] = ""
     channels: Annotated[
-        tuple[str, ...], 'what its columns are, "COLUMN = SIGNAL" or "COLUMN = SIGNAL at X"'
+        tuple[str, ...],
+        'what its columns are, "COLUMN = SIGNAL" or "COLUMN = SIGNAL at X"; -SIGNAL if reversed',
     ] = ()  # fmt: skip
     unit: Annotated[str, 'unit of the channels, "mm" or "um/m"; SI if left out'] = ""
     time_column: Annotated[str, 'column with the time; "" for samples at a rate'] = "t"
@@ -195,7 +207,7 @@ def _read(own: MeasuredRecord, changed: int) -> Record:
         ]
     if problems:
         raise InputError(problems)
-    factors = [factor(own.unit, channel.unit) for channel in own.parsed]
+    factors = [channel.sign * factor(own.unit, channel.unit) for channel in own.parsed]
     return Record(time, table[:, len(named) :].T * np.array(factors)[:, None])
 
 
@@ -245,4 +257,5 @@ def _channel(text: str) -> Channel:
     if (signal in VARIABLES) != (at is not None):
         needs = "needs a place" if signal in VARIABLES else "has no place"
         raise UnitError(f"{signal} {needs}; {_FORM}")
-    return Channel(match["column"].strip(), signal, None if at is None else to_si(at, "m"))
+    place, sign = None if at is None else to_si(at, "m"), -1.0 if match["sign"] else 1.0
+    return Channel(match["column"].strip(), signal, place, sign)

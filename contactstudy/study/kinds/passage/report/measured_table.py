@@ -3,6 +3,7 @@
 from contactstudy.figures.measured import GROUP, fitted, spread
 from contactstudy.plot.text import label, listing, number
 from contactstudy.report.blocks import Block, table, text
+from contactstudy.study.kinds.passage.held_against import reversed_sentences
 from contactstudy.study.results import StudyResults
 
 _COLUMNS = [
@@ -57,4 +58,5 @@ def measured_tables(results: StudyResults) -> list[Block]:
         for run, one in results.metrics.get(GROUP, {}).get("runs", {}).items()
         if "failure" in one
     }
-    return blocks + [text(f"{label(run)}: {why}.") for run, why in failed.items()]
+    told = [f"{label(run)}: {why}." for run, why in failed.items()]
+    return blocks + [text(one) for one in reversed_sentences(fitted(results)) + told]
