@@ -1,5 +1,6 @@
 """The damping ratio that a deck has over frequency, by Rayleigh or of its modes."""
 
+from collections.abc import Mapping
 from functools import partial
 from typing import Any
 
@@ -13,7 +14,7 @@ from contactstudy.plot.style import BLACK, GREY, VERMILION, figure_legend, new_f
 from contactstudy.plot.text import number
 from contactstudy.study.results import StudyResults
 from contactstudy.track.bridge import Bridge
-from contactstudy.track.deck import realised_ratio
+from contactstudy.track.deck import DeckSection, realised_ratio
 from contactstudy.track.deck_modes import deck_modes
 from contactstudy.track.model import Track
 from contactstudy.track.structure_nodes import nodes_of
@@ -32,14 +33,27 @@ def drawings(results: StudyResults) -> list[Drawing]:
     return [Drawing("deck_damping", _caption(bridge, *found), partial(_draw, bridge, *found))]
 
 
-def bridge_of(track: dict[str, Any]) -> Bridge:
+def bridge_of(track: Mapping[str, Any]) -> Bridge:
     """The bridge of a resolved study's track."""
-    from contactstudy.validation import entries, read
-
-    known = {key: track[key] for key in entries(Bridge) if key in track}
-    bridge, problems = read(Bridge, known, "track")
-    assert not problems
+    bridge = track_of(track).structure
+    assert bridge is not None
     return bridge
+
+
+def track_of(track: Mapping[str, Any]) -> Track:
+    """The track of a resolved study."""
+    from contactstudy.validation import read
+
+    made, problems = read(Track, track, "track")
+    assert not problems
+    return made
+
+
+def loaded_deck_of(track: Mapping[str, Any]) -> DeckSection:
+    """The deck of a resolved study's bridge, with the mass of the track on it."""
+    deck = track_of(track).loaded_deck
+    assert deck is not None
+    return deck
 
 
 def bending_frequencies(bridge: Bridge) -> Array:

@@ -14,7 +14,7 @@ from matplotlib.ticker import FixedLocator, NullLocator
 from contactstudy.arrays import Array
 from contactstudy.compare.signals import speed
 from contactstudy.figures.deck import largest_station
-from contactstudy.figures.deck_damping import bridge_of
+from contactstudy.figures.deck_damping import bridge_of, loaded_deck_of
 from contactstudy.figures.signals import styles
 from contactstudy.figures.train import repeat_length
 from contactstudy.plot.drawing import Drawing
@@ -139,8 +139,8 @@ def _marked_text(results: StudyResults) -> str:
 
 def _spectra(results: StudyResults, station: float) -> tuple[str, Any]:
     found = {name: spectrum(run, station) for name, run in results.runs.items()}
-    bridge = bridge_of(results.config["track"])
-    first = bridge.deck.frequency(bridge.span_at(station))
+    track = results.config["track"]
+    first = loaded_deck_of(track).frequency(bridge_of(track).span_at(station))
     highest = max(_HIGHEST, 4.0 * first)
     told = []
     for name, (f, a) in found.items():
@@ -150,7 +150,7 @@ def _spectra(results: StudyResults, station: float) -> tuple[str, Any]:
     text = (
         f"Amplitude spectrum of the deck's acceleration at X = {number(station, 4)} m, of the "
         f"samples while wheels are within {REACH:g} m. Highest lines: {'; '.join(told)}. Dashed: "
-        f"the first frequency of its span, simply supported, {number(first, 3)} Hz."
+        f"the first frequency of its span with the track, simply supported, {number(first, 3)} Hz."
     )
     return text + _marked_text(results), partial(_draw_spectra, results, found, first, highest)
 

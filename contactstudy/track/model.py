@@ -7,13 +7,14 @@ and J. H. Lin, J. Sound Vib. 270 (2004) 673, per rail seat.
 
 import math
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 
 from contactstudy.arrays import Array
 from contactstudy.track.bridge import Bridge
+from contactstudy.track.deck import DeckSection
 from contactstudy.track.rail import RAILS, Direction, Rail
 from contactstudy.track.rail import GivenRail as GivenRail
 from contactstudy.validation import (
@@ -211,6 +212,14 @@ class Track(Parameters):
             if isinstance(self.support.layer, Slab):
                 half += self.support.layer.mass_per_length
         return 2.0 * half
+
+    @property
+    def loaded_deck(self) -> DeckSection | None:
+        """A bridge's deck with the `mass_on_structure`: as it vibrates in the track; or None."""
+        if self.structure is None:
+            return None
+        deck = self.structure.deck
+        return replace(deck, mass_per_length=deck.mass_per_length + self.mass_on_structure)
 
     @property
     def n_bays(self) -> int:

@@ -49,10 +49,11 @@ def test_the_station_that_moves_most_beside_the_codes():
     # samples four times a second are too few for a filter
     assert rows == [["2.40", "2.00", "1.20", "1.0", "–"], ["3.00", "2.00", "1.50", "1.0", "–"]]
     # the third frequency of a beam, 9 times the first
-    assert made["columns"][-1]["title"] == "up to 70.4 Hz"
+    assert made["columns"][-1]["title"] == "up to 70.2 Hz"
     assert "3.5 m/s²" in made["note"]
-    # Antoing's section over 32 m: f = pi/(2 L^2) sqrt(EI/m) = 3.205 Hz (50/32)^2
-    assert "span of 32.0 m with 7.83 Hz" in made["note"]
+    # Antoing's section over 32 m: f = pi/(2 L^2) sqrt(EI/m) = 3.205 Hz (50/32)^2, with the mass of
+    # two rails and sleepers sqrt(69000/69539) of it
+    assert "span of 32.0 m with the track on it, 7.79 Hz" in made["note"]
 
 
 def test_only_frequencies_count_that_en_1990_counts():

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from contactstudy.compare.bridge_codes import cancellation_speeds, resonance_speeds
-from contactstudy.figures.deck_damping import bridge_of
+from contactstudy.figures.deck_damping import bridge_of, loaded_deck_of
 from contactstudy.figures.train import repeat_length
 from contactstudy.plot.text import number
 from contactstudy.study.kind import Marks
@@ -27,10 +27,9 @@ def speed_marks(config: Mapping[str, Any]) -> list[Marks]:
     track = config.get("track", {})
     if track.get("structure") != "bridge":
         return []
-    bridge = bridge_of(track)
-    span = max(bridge.spans)
-    f1 = bridge.deck.frequency(span)
-    of = f"f₁ = {number(f1, 3)} Hz"
+    span = max(bridge_of(track).spans)
+    f1 = loaded_deck_of(track).frequency(span)
+    of = f"f₁ = {number(f1, 3)} Hz with the track"
     made = []
     if length := repeat_length(config.get("vehicle", {})):
         speeds = resonance_speeds(f1, length, _ORDERS).tolist()

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
@@ -182,15 +181,14 @@ def _contact(study: Study) -> str:
 
 def _deck(study: Study) -> list[str]:
     """First bending of the longest span, for a look at stiffness and mass of the deck."""
-    bridge = study.track.structure
-    if bridge is None:
+    bridge, loaded = study.track.structure, study.track.loaded_deck
+    if bridge is None or loaded is None:
         return []
-    span, mass, more = max(bridge.spans), bridge.deck.mass_per_length, study.track.mass_on_structure
-    alone = bridge.deck.frequency(span)
-    loaded = alone * math.sqrt(mass / (mass + more))
+    span, more = max(bridge.spans), study.track.mass_on_structure
     return [
-        f"deck: first bending of {span:g} m, simply supported, at {alone:.3g} Hz, "
-        f"with rails and sleepers ({more:.3g} kg/m) at {loaded:.3g} Hz"
+        f"deck: first bending of {span:g} m, simply supported, at "
+        f"{bridge.deck.frequency(span):.3g} Hz, "
+        f"with rails and sleepers ({more:.3g} kg/m) at {loaded.frequency(span):.3g} Hz"
     ]
 
 

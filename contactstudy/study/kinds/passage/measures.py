@@ -34,7 +34,7 @@ from contactstudy.study.kinds.passage.twins import OF_DECK, SMOOTH, SOFTER, with
 if TYPE_CHECKING:
     import xarray as xr
 
-    from contactstudy.track.bridge import Bridge
+    from contactstudy.track.model import Track
 
 PARTS = ("total", "dynamic", "irregularity")
 _RUN = ["run", "signal"]
@@ -72,8 +72,7 @@ def measure(study: Study, found: Mapping[str, Any]) -> Measured:
     for name, run in runs.items():
         _own(run, start, lambda variable, name=name: made[variable]["values"].setdefault(name, {}))
         made["contact_lost"]["values"][name] = _lost(run, start)
-        bridge = study.track.structure
-        if bridge is not None and (most := largest_of_deck(run, bridge)):
+        if most := largest_of_deck(run, study.track):
             made["largest_of_deck"]["values"][name] = most
         if (factor := _amplification(run)) is not None:
             made["amplification"]["values"][name] = factor
@@ -135,14 +134,17 @@ def _own(run: xr.Dataset, start: float, of: Any) -> None:
         of("root_mean_square")[signal] = squares
 
 
-def largest_of_deck(run: xr.Dataset, bridge: Bridge) -> dict[str, float]:
+def largest_of_deck(run: xr.Dataset, track: Track) -> dict[str, float]:
     """Of a run's `OF_DECK` the largest sizes, of those that are known at a station."""
+    bridge, deck = track.structure, track.loaded_deck
+    if bridge is None or deck is None:
+        return {}
     found: dict[str, list[float | None]] = {signal: [] for signal in OF_DECK}
     for station in run["station"].values if "station" in run.dims else ():
         here = run.sel(station=station)
         if not np.isfinite(here["deck_displacement"].values).all():
             continue
-        frequency = bridge.deck.frequency(bridge.span_at(float(station)))
+        frequency = deck.frequency(bridge.span_at(float(station)))
         step = float(np.diff(here["time"].values[:2])[0])
         found["deck_displacement"].append(float(np.abs(here["deck_displacement"]).max()))
         counted = counted_acceleration(here["deck_acceleration"].values, step, frequency)

@@ -17,7 +17,7 @@ from contactstudy.compare.bridge_codes import (
     track_twist,
 )
 from contactstudy.figures.deck import largest_station
-from contactstudy.figures.deck_damping import bridge_of
+from contactstudy.figures.deck_damping import bridge_of, loaded_deck_of
 from contactstudy.plot.text import label, number
 from contactstudy.report.blocks import Block, table
 from contactstudy.solvers.bridge_frames import RAIL
@@ -136,14 +136,15 @@ def _beside(results: StudyResults, station: float, twisted: bool = False) -> str
     told += _lateral(track, span, lateral)
     return (
         "; ".join(told) + ". EN 1991-2, annex C, for a simply supported span of "
-        f"{number(span, 3)} m with {number(frequency, 3)} Hz: 1 + φ' + φ'' = {number(factor, 3)}, "
+        f"{number(span, 3)} m with the track on it, {number(frequency, 3)} Hz: "
+        f"1 + φ' + φ'' = {number(factor, 3)}, "
         f"with carefully maintained track {number(careful, 3)}."
     )
 
 
 def _lateral(track: dict[str, Any], span: float, limit: Limit) -> list[str]:
     """First lateral frequency of a span, simply supported, where the deck's section tells it."""
-    frequency = bridge_of(track).deck.lateral_frequency(span)
+    frequency = loaded_deck_of(track).lateral_frequency(span)
     if frequency is None:
         return []
     return [
@@ -154,6 +155,5 @@ def _lateral(track: dict[str, Any], span: float, limit: Limit) -> list[str]:
 
 def _span(track: dict[str, Any], station: float) -> tuple[float, float]:
     """Length of the span under a station [m], and its first frequency simply supported [Hz]."""
-    bridge = bridge_of(track)
-    span = bridge.span_at(station)
-    return span, bridge.deck.frequency(span)
+    span = bridge_of(track).span_at(station)
+    return span, loaded_deck_of(track).frequency(span)
