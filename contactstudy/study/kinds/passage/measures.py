@@ -24,7 +24,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from contactstudy.compare.bridge_codes import amplification, counted_acceleration
-from contactstudy.compare.signals import position, same_way
+from contactstudy.compare.signals import is_moving_force, position, same_way
 from contactstudy.study.axes.measured import Measured, measured
 from contactstudy.study.kinds.passage.impacts import closed_forms, impacts
 from contactstudy.study.kinds.passage.metrics import behind, compare_runs, parts_of
@@ -119,7 +119,8 @@ def _own(run: xr.Dataset, start: float, of: Any) -> None:
         signal = str(name)
         twin = signal.endswith((SMOOTH, SOFTER))
         other = {"station", "support"} & set(variable.dims)
-        if variable.dims[-1:] != ("time",) or other or twin:
+        given = signal == "contact_force" and is_moving_force(run)  # nothing to find out
+        if variable.dims[-1:] != ("time",) or other or twin or given:
             continue
         values = np.asarray(variable.values, dtype=float)
         kept = behind(values, x, start)
