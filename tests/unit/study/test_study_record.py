@@ -177,6 +177,7 @@ def test_a_run_that_cannot_be_laid_over_is_told(tmp_path, run):
     [
         ("shift = 1.0", r"measured\.shift = 1 s: .* has no common time with the run, 0 to 0\.15 s"),
         ('shift = "-2 s"', r"no common time"),
+        ('time_unit = "ms"', r"lasts 0\.000499 s \(measured.time_unit or measured.rate\)"),
         ("scale = 0", r"measured\.scale = 0"),
         ('time_column = "clock"', r"there is no column 'clock'; the file has: t, pad, bay"),
         ('rate = "1 kHz"', r'measured\.rate = 1000.0: applies only with measured.time_column = ""'),

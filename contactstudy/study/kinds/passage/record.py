@@ -32,6 +32,7 @@ _CHANNEL = re.compile(
 )
 _FORM = 'must be like "COLUMN = SIGNAL" or "COLUMN = SIGNAL at 12.5 m"'
 _FEWEST = 3  # samples of a record, and of them within the run's time
+_SHORTEST = 0.01  # of the run's time, of a record: it would fit anywhere
 _SECONDS = {"s": 1.0, "ms": 1e-3, "us": 1e-6}
 
 
@@ -164,6 +165,13 @@ class MeasuredRecord(Parameters):
             problems.append(
                 f"measured.file: {self.file}: its samples are {step:g} s apart (measured.time_unit"
                 f" or measured.rate); the run of {duration:.4g} s needs {_FEWEST} of them at least"
+            )
+        lasts = float(np.ptp(record.time))
+        if lasts < _SHORTEST * duration:
+            problems.append(
+                f"measured.file: {self.file}: lasts {lasts:.3g} s (measured.time_unit or "
+                f"measured.rate); the run of {duration:.4g} s needs {100 * _SHORTEST:g} % of that "
+                "at least"
             )
         if self.shift != "fitted":
             first, last = record.time[0] + self.shift, record.time[-1] + self.shift
