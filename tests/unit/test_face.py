@@ -10,7 +10,6 @@ import pytest
 import contactstudy as cs
 from contactstudy import cli
 from contactstudy.exceptions import InputError
-from contactstudy.study.loading import load_study
 
 SNIPPETS = re.findall(
     r"```python\n(.*?)```", (Path(__file__).parents[2] / "README.md").read_text("utf-8"), re.DOTALL
@@ -38,25 +37,6 @@ def test_links_of_the_pages_lead_somewhere(page):
 
 def test_the_readme_is_short():
     assert len((ROOT / "README.md").read_text("utf-8").splitlines()) <= 120
-
-
-RUNS = '\n[runs.surface]\nsolver = "surface"\n[runs.point]\nsolver = "point"\n'
-BLOCKS = re.findall(
-    r"```toml\n(.*?)```", (ROOT / "docs" / "studies.md").read_text("utf-8"), re.DOTALL
-)
-
-
-@pytest.mark.parametrize("block", BLOCKS, ids=[block.split("]")[0] for block in BLOCKS])
-def test_documented_studies_have_known_keys(block, tmp_path):
-    """The files that some of them name are not there: that alone may be wrong."""
-    study = tmp_path / "documented.toml"
-    bare = "[runs." not in block and "[positions]" not in block
-    study.write_text(block + (RUNS if bare else ""), "utf-8")
-    try:
-        load_study(study, quick=True)
-    except InputError as error:
-        assert not any("unknown key" in p for p in error.problems), str(error)
-        assert "no such file" in str(error) or "[scan]" in block, str(error)
 
 
 def test_every_name_is_there():

@@ -122,5 +122,5 @@ def test_freight_wagons_carry_eight_tonnes_a_metre():
 def test_the_documented_car_is_one(tmp_path):
     page = (Path(__file__).parents[3] / "docs" / "studies.md").read_text("utf-8")
     file = tmp_path / "mine.toml"
-    file.write_text(page.split("```text\n")[1].split("```")[0], "utf-8")
+    file.write_text(page.split("# my_car.toml\n")[1].split("```")[0], "utf-8")
     assert read_car(str(file)).static_axle_load == pytest.approx(14e3 * G)
