@@ -23,7 +23,7 @@ autodoc_typehints = "none"  # numpydoc's sections say it, with shapes and units
 autodoc_member_order = "bysource"
 exclude_patterns = ["site", "gallery", "tutorials/made"]
 html_static_path = ["static", "generated"]
-html_css_files = ["explorer.css", "gallery.css", "tables.css"]
+html_css_files = ["explorer.css", "formulas.css", "gallery.css", "tables.css"]
 html_show_search_summary = False  # it asks for pages as a server gives them, not from disk
 html_show_copyright = False
 # the studies and scripts of these pages stand in files that are not part of the site
