@@ -36,8 +36,8 @@ def given(page: str) -> None:
     _rows("record.csv", "t,gauge1,gauge2", t, *gauges)
     wave = np.array([1.0, 2.0, 4.0, 8.0, 16.0])
     _rows("roughness.csv", "wl,R", wave, 10.0 * np.log10(wave))
-    _surface(synthetic_scan(rail_curve("60E1"), 0.03), 1e3, 0.0, "rail.stl")
-    _surface(synthetic_scan(wheel_curve("S1002"), 0.06), 1.0, 0.070, "tread.ply")
+    _surface(synthetic_scan(rail_curve("60E1"), 0.03, step=2e-3), 1e3, 0.0, "rail.stl")
+    _surface(synthetic_scan(wheel_curve("S1002"), 0.06, step=2e-3), 1.0, 0.070, "tread.ply")
 
 
 def _rows(name: str, head: str, *columns: np.ndarray) -> None:
