@@ -137,6 +137,9 @@ def measured_profile(
         problems.append(f"{file}: origin is {origin} m; allowed: a finite position")
     if wavelengths is not None and not 0.0 < wavelengths[0] < wavelengths[1] < np.inf:
         problems.append(f"{file}: wavelengths are {wavelengths} m; allowed: 0 < shortest < longest")
+    problems += other_unit(file, x_column, "m")
+    if level_unit in UNITS:
+        problems += other_unit(file, level_column, level_unit)
     try:
         x, level, lines = read_columns(file, (x_column, level_column))
     except InputError as error:
@@ -145,8 +148,6 @@ def measured_profile(
         shortest = None if wavelengths is None else wavelengths[0]
         unit = level_unit, UNITS[level_unit]
         problems += implausible(file, x, level, lines, level_column, unit, shortest)
-        problems += other_unit(file, level_column, level_unit)
-    problems += other_unit(file, x_column, "m")
     x = x - origin
     if required is not None:
         problems += _uncovered(str(file), (float(x[0]), float(x[-1])), *required)

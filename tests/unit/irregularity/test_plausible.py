@@ -236,6 +236,14 @@ def test_positions_are_in_metres(tmp_path):
         read(tmp_path, rows, x_column="x (km)")
 
 
+def test_columns_that_are_missing_and_units_that_differ_are_named_together(tmp_path):
+    with pytest.raises(InputError) as caught:
+        read(tmp_path, cells(3), x_column="x_km", level="left_um")
+    told = str(caught.value)
+    assert all(f"there is no column '{name}'" in told for name in ("x_km", "left_um"))
+    assert "'x_km' says km" in told and "'left_um' says um" in told
+
+
 def test_a_record_that_runs_backwards_is_one_fault(tmp_path):
     rows = cells(4)
     with pytest.raises(InputError, match=r"positions fall from 99\.75 to 0; .*turn the rows round"):
