@@ -81,12 +81,19 @@ class Parameters:
             value = getattr(self, p.name)
             if p.variants is not None and isinstance(value, Parameters):
                 found += value.unusual()
-            if p.usual is None or not isinstance(value, float | int) or not p.applies(self):
+            if p.usual is None or not p.applies(self):
                 continue
             low, high = p.usual.low, p.usual.high
-            if value and not low <= abs(value) <= high:
+            several = isinstance(value, tuple)
+            odd = [
+                one
+                for one in (value if several else (value,))
+                if isinstance(one, float | int) and one and not low <= abs(one) <= high
+            ]
+            if odd:
                 allowed = f"usual is {low:.4g} to {high:.4g} {p.unit}".rstrip()
-                found.append(complaint(key(p.name), value, f"{allowed}; {p.usual.hint}"))
+                shown = odd if several else value
+                found.append(complaint(key(p.name), shown, f"{allowed}; {p.usual.hint}"))
         return found
 
     def resolved(self) -> dict[str, Any]:

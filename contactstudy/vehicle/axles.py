@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 
 import numpy as np
 
-from contactstudy.validation import Above, Naming, Parameters, Same, Unit
+from contactstudy.validation import Above, Naming, Parameters, Same, Unit, Usual
 from contactstudy.validation import quantities as q
 from contactstudy.vehicle.car import WEIGHT
 from contactstudy.vehicle.lumped import GRAVITY, BareWheel
@@ -75,7 +75,8 @@ class AxleLoads(Axles):
     """Any axles."""
 
     axle_loads: Annotated[
-        tuple[float, ...], Unit("N"), Above(0), WEIGHT, "of the axles from front to rear"
+        tuple[float, ...], Unit("N"), Above(0), WEIGHT, Usual(2e4, 5e5, "is it a mass in kg?"),
+        "of the axles from front to rear",
     ] = (134e3,)  # fmt: skip
     axle_distances: Annotated[
         tuple[float, ...], Unit("m"), Above(0), "from each axle to the next"
