@@ -57,17 +57,16 @@ def implausible(
         ],
     )
     name, metre = unit
+    huge = np.abs(level) * metre > LARGEST
     problems += listed(
         file,
         [
             f"line {lines[k]}, column '{column}' is {level[k]:g} {name}; allowed: at most "
             f"{LARGEST / metre:g} {name} (is the unit right?)"
-            for k in np.flatnonzero((np.abs(level) * metre > LARGEST) & ~placeholders)
+            for k in np.flatnonzero(huge & ~placeholders)
         ],
     )
-    if not np.any(np.abs(level) * metre > LARGEST) and (
-        complaint := wrong_size(file, x, level, column, unit)
-    ):
+    if not huge.any() and (complaint := wrong_size(file, x, level, column, unit)):
         problems.append(complaint)
     if level[0] != 0.0 and np.all(level == level[0]):
         problems.append(f"{file}, column '{column}' is {level[0]:g} in all rows: a dead channel")

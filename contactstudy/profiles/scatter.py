@@ -11,6 +11,7 @@ import numpy as np
 
 from contactstudy.arrays import Array
 from contactstudy.exceptions import InputError
+from contactstudy.profiles.cloud import CloudFit
 from contactstudy.profiles.curve import ProfileCurve
 from contactstudy.profiles.outliers import BEARABLE, POINTS
 from contactstudy.profiles.penalised_spline import needed_knots, penalised_spline
@@ -108,17 +109,13 @@ def curvature_error(
 def _fitted(
     p: Array, normal: Array, s: Array, scatter: float, spacings: Sequence[float]
 ) -> "BSpline":
-    """The fit of `contactstudy.profiles.cloud` to points (n, 2) whose feet (n,) are known."""
-    best, least = None, np.inf
-    n = len(s)
+    """The best fit of `contactstudy.profiles.cloud` to points (n, 2) whose feet (n,) are known."""
+    fits = []
     for spacing in spacings:
-        apart = max(spacing, POINTS * float(s[-1]) / n)
+        apart = max(spacing, POINTS * float(s[-1]) / len(s))
         knots = np.linspace(0.0, s[-1], max(int(s[-1] / apart), 1) + 1)
         knots = needed_knots(p, s, knots, scatter, apart)
         spline = penalised_spline(p, s, knots, apart)
         off = ((p - spline(s)) * normal).sum(axis=1)
-        criterion = n * np.log(np.mean(off**2)) + 2 * len(knots) * np.log(n)
-        if criterion < least:
-            best, least = spline, criterion
-    assert best is not None
-    return best
+        fits.append(CloudFit(spline, s, off, normal, scatter))
+    return min(fits, key=lambda fit: fit.criterion).spline
