@@ -1,4 +1,4 @@
-"""Products with two sparse matrices at once: a step multiplies damping and stiffness."""
+"""Products with two sparse matrices: a step multiplies stiffness and damping."""
 
 from typing import NamedTuple
 
@@ -7,6 +7,10 @@ import scipy.sparse as sp
 
 from contactstudy.arrays import Array, IntArray
 from contactstudy.compiled import compiled_in_any_order
+from contactstudy.dynamics.windows import Windows, gaps, product, windows
+
+_GAPS = 0.1
+"""Share of zeros between a row's values up to which windows are faster than entries one by one."""
 
 
 class Pair(NamedTuple):
@@ -22,11 +26,13 @@ class Pair(NamedTuple):
     second: Array
 
 
-def pair(first: sp.csr_array, second: sp.csr_array) -> Pair:
-    """Two matrices of one shape."""
+def pair(first: sp.csr_array, second: sp.csr_array) -> Pair | tuple[Windows, Windows]:
+    """Two matrices of one shape; as windows where these have next to no gaps, as a solid rail's."""
     shape = first.shape
     both = sp.csr_array(abs(first) + abs(second))
     both.sort_indices()
+    if gaps(both) < _GAPS:
+        return windows(first), windows(second)
     rows = np.repeat(np.arange(shape[0]), np.diff(both.indptr))
     at = rows * shape[1] + both.indices
 
@@ -40,8 +46,19 @@ def pair(first: sp.csr_array, second: sp.csr_array) -> Pair:
     return Pair(begin, both.indices.astype(np.int32), values(first), values(second))
 
 
+def subtract_products(
+    matrices: Pair | tuple[Windows, Windows], x: Array, y: Array, total: Array
+) -> None:
+    """total -= A x + B y."""
+    if isinstance(matrices, Pair):
+        _subtract_products(matrices, x, y, total)
+    else:
+        first, second = matrices
+        total -= product(first, x) + product(second, y)
+
+
 @compiled_in_any_order
-def subtract_products(matrices: Pair, x: Array, y: Array, total: Array) -> None:
+def _subtract_products(matrices: Pair, x: Array, y: Array, total: Array) -> None:
     """total -= A x + B y."""
     begin, columns, first, second = matrices
     for row in range(len(total)):

@@ -43,6 +43,14 @@ def windows(matrix: sp.csr_array) -> Windows:
     return Windows(first, width, of_row * padded.shape[1], padded[which].ravel())
 
 
+def gaps(matrix: sp.csr_array) -> float:
+    """Zeros inside the windows of a matrix with sorted indices, relative to its values."""
+    begin, stop = matrix.indptr[:-1], matrix.indptr[1:]
+    filled = stop > begin
+    width = 1 + matrix.indices[stop[filled] - 1] - matrix.indices[begin[filled]]
+    return float(width.sum(dtype=np.int64)) / max(matrix.nnz, 1) - 1.0
+
+
 @compiled_in_any_order
 def product(rows: Windows, x: Array) -> Array:
     """Rows (r, n) @ x, which may have more values than n."""

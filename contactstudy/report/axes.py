@@ -75,7 +75,7 @@ def _observed(results: StudyResults) -> list[str]:
                 (line.agrees(expected), what, f"{line.name} {line.order_text}".strip())
                 for line in convergences(one)
             )
-    if not found:
+    if not any(found.values()):
         return []
     title, best = max(found.items(), key=lambda item: sum(agrees for agrees, *_ in item[1]))
     told = f"{title}: the expected order is observed in {sum(a for a, *_ in best)} of {len(best)}"
@@ -161,7 +161,7 @@ def parts(results: StudyResults) -> list[Part]:
         refined = data.attrs["refined"]
         title = f"Refinement of the {title_of(refined)}" if refined else "Sweep"
         made.append({"title": title, "blocks": blocks})
-    if any(data.attrs["refined"] for data in results.designs.values()):
+    if any(convergences(one) for one in shown(results) if one.data.attrs["refined"]):
         made[-1]["blocks"].append(text(_REFINED))
     return made
 
@@ -183,8 +183,9 @@ def _orders(results: StudyResults, design: str) -> list[str]:
     head = f"Expected order {expected:g}" if expected else "No order is expected"
     told = f"{head}: {why}." if why else f"{head}."
     for one in shown(results):
-        if expected and one.data.attrs["design"] == design and one.name.startswith("from_finest"):
-            lines = convergences(one)
+        if one.data.attrs["design"] != design or not one.name.startswith("from_finest"):
+            continue
+        if expected and (lines := convergences(one)):
             yes = [f"{line.name} ({line.order_text})" for line in lines if line.agrees(expected)]
             no = [f"{line.name} ({line.order_text})" for line in lines if not line.agrees(expected)]
             told += f" {one.title.rpartition(' (')[0]}:"

@@ -29,8 +29,9 @@ value by value, or a sample, whose VALUES may be `"uniform 1 m to 2 m"`, `"log-u
 
 ## [refine]
 
-`"TABLE.KEY" = VALUES`, three or more numbers from coarse to fine, each key by itself, and crossed
-with the keys of `[sweep]`; gives observed order, limit, grid convergence index and a verdict.
+`"TABLE.KEY" = VALUES`, numbers from coarse to fine, each key by itself, and crossed with the keys
+of `[sweep]`; three or more give observed order, limit, grid convergence index and a verdict, two
+the difference.
 `expected = { "TABLE.KEY" = 2 }` states the order of the scheme, `why = { "TABLE.KEY" = "text" }`
 why it is that, or why none can be expected.
 

@@ -14,6 +14,9 @@ from contactstudy.study.axes.axis import axis_of
 from contactstudy.study.axes.refinement import OUTCOMES, VERDICT
 from contactstudy.study.axes.shown import RUN, Shown
 
+OF_ORDER = 3
+"""Values that an order takes."""
+
 
 @dataclass(frozen=True)
 class Line:
@@ -45,8 +48,13 @@ class Line:
 
 
 def convergences(quantity: Shown) -> list[Line]:
-    """Of each run, and each point of the other keys, what changes along the refined one."""
+    """Of each run, and each point of the other keys, what changes along the refined one.
+
+    None of two values: their one difference shows no order.
+    """
     refined = quantity.data.attrs["refined"]
+    if quantity.data.sizes[refined] < OF_ORDER:
+        return []
     others = [str(d) for d in quantity.values.dims if d != refined]
     names = [
         [label(r) for r in quantity.runs] if d == RUN else axis_of(quantity.data, d).names

@@ -111,9 +111,9 @@ class _Reader:
             x = made.coordinates
             steps = {b > a for a, b in pairwise(x)} if made.numeric else set()
             counts = (parameter := self._parameter("refine", key)) and parameter.limits.whole
-            if len(made) < 3 or len(steps) != 1 or (counts and x[0] > x[-1]) or min(x) <= 0.0:
+            if len(made) < 2 or len(steps) != 1 or (counts and x[0] > x[-1]) or min(x) <= 0.0:
                 more = ", that is increasing" if counts else ""
-                allowed = f"must be 3 or more numbers above 0, coarse to fine{more}"
+                allowed = f"must be 2 or more numbers above 0, coarse to fine{more}"
                 self._wrong(f"refine.{key}", value, allowed)
                 continue
             found[key] = made

@@ -13,7 +13,7 @@ from contactstudy.arrays import Array
 from contactstudy.compare.statistics import spread
 from contactstudy.plot.text import capital, label, number, resolved
 from contactstudy.study.axes.axis import axis_of, title_of
-from contactstudy.study.axes.convergences import Line, convergences
+from contactstudy.study.axes.convergences import OF_ORDER, Line, convergences
 from contactstudy.study.axes.effects import effects, too_many
 from contactstudy.study.axes.shown import Shown, drawn, shown
 from contactstudy.study.results import StudyResults
@@ -40,11 +40,12 @@ def tables(results: StudyResults) -> Iterator[TableData]:
     for design, quantities in found.items():
         data = quantities[0].data
         free = [d for d in quantities[0].axes if not drawn(data, d)]
-        if data.attrs["refined"]:
+        refined = data.attrs["refined"]
+        if refined and data.sizes[refined] >= OF_ORDER:
             yield _refinement(design, quantities)
         elif not free:
             yield _sample(design, quantities)
-        elif np.prod([data.sizes[d] for d in free]) <= _ROWS:
+        elif np.prod([data.sizes[d] for d in free]) * len(quantities) ** bool(refined) <= _ROWS:
             yield from (_values(design, quantity, free) for quantity in quantities)
         else:
             yield _ends(design, quantities, free)

@@ -231,8 +231,8 @@ def test_all_that_is_wrong_is_said_at_once(law):
         ('[sweep]\n"law.x" = "uniform 1 m to 2 m"\n', 'drawn only in [sweep] with combine = "sob'),
         ('[sweep]\n"law.x" = ["1e x tangent"]\n', "unknown unit 'e x tangent'"),
         ('[refine]\n"law.seed" = [4, 2, 1]\n', "coarse to fine, that is increasing"),
-        ('[refine]\n"law.scale" = [2, 1, 0]\n', "3 or more numbers above 0"),
-        ('[refine]\n"law.x" = [4, 2, 3]\n', "must be 3 or more numbers above 0, coarse to fine"),
+        ('[refine]\n"law.scale" = [2, 1, 0]\n', "2 or more numbers above 0"),
+        ('[refine]\n"law.x" = [4, 2, 3]\n', "must be 2 or more numbers above 0, coarse to fine"),
     ],
 )
 def test_series_that_mean_something_else(law, axes, message):

@@ -68,6 +68,21 @@ def test_a_refinement_at_many_points_is_told_by_its_widest_band(swept):
     assert row["at"] == "26" and row["verdicts"].startswith("26 ")
 
 
+def test_two_values_have_a_difference_and_no_order(swept):
+    """y = 5 + s x at two x: tables of the values, no figure, no word about order or verdict."""
+    text = '[refine]\n"law.x" = [0.2, 0.1]\nexpected = { "law.x" = 1 }\n'
+    results = swept(text, "order = 1.0\nscale = 3.0")
+    (first, *_) = tables(results)
+    column = first.columns.index("power")
+    assert [row[column] for row in first.rows] == ["5.60", "5.30"]
+    assert drawings(results) == []
+    told = str(parts(results)) + " ".join(abstract(results))
+    assert "verdict" not in told.lower() and "observed" not in told and "200 mm, 100 mm" in told
+    at_many = swept(f'{text}[sweep]\n"law.scale" = "1 to 26 by 1"\n')
+    (row,) = (row for row in cells(at_many) if row["run"] == "power")
+    assert row["largest"] == "10.2" and row["at"] in ("26, 200 mm", "200 mm, 26")
+
+
 def test_what_all_runs_share_is_told_once():
     assert _shared([{"a": 1, "b": 2}, {"a": 1, "b": 3}]) == {"a": 1}
     assert _shared([{"a": 1}, {"a": 1, "b": 3}]) == {} == _shared([{"a": 1}])
