@@ -6,7 +6,7 @@ import numpy as np
 import xarray as xr
 
 from contactstudy.figures.bridge_scene import Scene
-from contactstudy.figures.deck_damping import bridge_of
+from contactstudy.figures.resolved_track import bridge_of
 from contactstudy.files import writing
 from contactstudy.plot.drawing import Drawing
 from contactstudy.plot.gif import write_gif

@@ -1,20 +1,19 @@
 """The damping ratio that a deck has over frequency, by Rayleigh or of its modes."""
 
-from collections.abc import Mapping
 from functools import partial
-from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
 
 from contactstudy.arrays import Array
 from contactstudy.figures.deck import largest_station
+from contactstudy.figures.resolved_track import bridge_of
 from contactstudy.plot.drawing import Drawing
 from contactstudy.plot.style import BLACK, GREY, VERMILION, figure_legend, new_figure
 from contactstudy.plot.text import number
 from contactstudy.study.results import StudyResults
 from contactstudy.track.bridge import Bridge
-from contactstudy.track.deck import DeckSection, realised_ratio
+from contactstudy.track.deck import realised_ratio
 from contactstudy.track.deck_modes import deck_modes
 from contactstudy.track.model import Track
 from contactstudy.track.structure_nodes import nodes_of
@@ -31,29 +30,6 @@ def drawings(results: StudyResults) -> list[Drawing]:
     bridge = bridge_of(results.config["track"])
     found = _ratios(bridge)
     return [Drawing("deck_damping", _caption(bridge, *found), partial(_draw, bridge, *found))]
-
-
-def bridge_of(track: Mapping[str, Any]) -> Bridge:
-    """The bridge of a resolved study's track."""
-    bridge = track_of(track).structure
-    assert bridge is not None
-    return bridge
-
-
-def track_of(track: Mapping[str, Any]) -> Track:
-    """The track of a resolved study."""
-    from contactstudy.validation import read
-
-    made, problems = read(Track, track, "track")
-    assert not problems
-    return made
-
-
-def loaded_deck_of(track: Mapping[str, Any]) -> DeckSection:
-    """The deck of a resolved study's bridge, with the mass of the track on it."""
-    deck = track_of(track).loaded_deck
-    assert deck is not None
-    return deck
 
 
 def bending_frequencies(bridge: Bridge) -> Array:

@@ -14,7 +14,7 @@ from matplotlib.ticker import FixedLocator, NullLocator
 from contactstudy.arrays import Array
 from contactstudy.compare.signals import speed
 from contactstudy.figures.deck import largest_station
-from contactstudy.figures.deck_damping import bridge_of, loaded_deck_of
+from contactstudy.figures.resolved_track import bridge_of, loaded_deck_of
 from contactstudy.figures.signals import styles
 from contactstudy.figures.train import repeat_length
 from contactstudy.plot.drawing import Drawing

@@ -5,7 +5,11 @@ from pathlib import Path
 import numpy as np
 
 from contactstudy.arrays import Array
+from contactstudy.exceptions import InputError
 from contactstudy.validation import raise_if
+
+_FINER = 20
+"""Equally spaced rows that may be made of one row of a file."""
 
 
 def band_passed(
@@ -18,7 +22,7 @@ def band_passed(
     """Positions at equal spacing and the level there between two wavelengths [m].
 
     Fourth-order Butterworth run forwards and backwards; `degree` is that of the spline to equal
-    spacing. ``InputError`` for wavelengths that rows or record cannot have.
+    spacing. ``InputError`` for wavelengths that rows or record cannot have, and for rows too uneven.
     """
     from scipy.interpolate import make_interp_spline
     from scipy.signal import butter, sosfiltfilt
@@ -26,7 +30,14 @@ def band_passed(
     step = np.diff(x)
     dx = float(np.median(step))
     if np.abs(step - dx).max() > 1e-6 * dx:
-        even = np.linspace(x[0], x[-1], round((x[-1] - x[0]) / dx) + 1)
+        count = round((x[-1] - x[0]) / dx) + 1
+        if count > _FINER * len(x):
+            raise InputError(
+                f"{file}: half of the rows are at most {dx:g} m apart, which makes {count} equally "
+                f"spaced ones of {len(x)}; allowed: up to {_FINER} times as many (leave out rows "
+                "that stand close together)"
+            )
+        even = np.linspace(x[0], x[-1], count)
         spline = make_interp_spline(x, level, k=degree)
         x, level = even, np.asarray(spline(even), dtype=float)
         dx = float(x[1] - x[0])

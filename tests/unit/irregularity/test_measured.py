@@ -68,6 +68,14 @@ def test_uneven_rows_are_resampled_before_the_filter(tmp_path):
     np.testing.assert_allclose(profile(at), 1e-3 * np.sin(2 * np.pi * at / 10.0), atol=2e-5)
 
 
+def test_rows_too_uneven_for_equal_spacing_are_refused(tmp_path):
+    """Three rows a micrometre apart each quarter of a metre: 400 million equally spaced ones."""
+    x = (np.arange(0.0, 400.0, 0.25)[:, None] + 1e-6 * np.arange(3)).ravel()
+    file = _wave(tmp_path / "clusters.csv", x, np.sin(2 * np.pi * x / 10.0))
+    with pytest.raises(InputError, match=r"clusters\.csv: half of the rows .*1e-06 m.*up to 20"):
+        measured_profile(file, "level_mm", "mm", wavelengths=(2.5, 42.0))
+
+
 def test_positions_that_are_not_covered(tmp_path):
     file = _wave(tmp_path / "short.csv", 98000.0 + np.arange(50.0), np.zeros(50))
     with pytest.raises(InputError, match=r"short\.csv: .*6 m to 30 m.*98000 m to 98049 m.*origin"):

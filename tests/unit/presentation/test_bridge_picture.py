@@ -8,7 +8,7 @@ from PIL import Image
 
 from contactstudy.figures.bridge_picture import drawings, write_animation
 from contactstudy.figures.bridge_scene import Scene, _rounded
-from contactstudy.figures.deck_damping import bridge_of
+from contactstudy.figures.resolved_track import bridge_of
 from contactstudy.plot.style import figure_style
 from contactstudy.study.kinds.passage.execution import execute_run
 from contactstudy.study.kinds.passage.reading import parse_study

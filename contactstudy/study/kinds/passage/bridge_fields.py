@@ -23,7 +23,7 @@ from contactstudy.compare.signals import way
 from contactstudy.export.paraview import Piece, collection, vtu
 from contactstudy.figures.bridge_picture import shown
 from contactstudy.figures.bridge_scene import BODY
-from contactstudy.figures.deck_damping import bridge_of
+from contactstudy.figures.resolved_track import bridge_of
 from contactstudy.files import write_file
 from contactstudy.solvers.bridge_frames import frame_steps, running_surface
 from contactstudy.study.kinds.passage.kind import FIELDS

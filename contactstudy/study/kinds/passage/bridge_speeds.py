@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from contactstudy.compare.bridge_codes import cancellation_speeds, resonance_speeds
-from contactstudy.figures.deck_damping import bridge_of, loaded_deck_of
+from contactstudy.figures.resolved_track import bridge_of, loaded_deck_of
 from contactstudy.figures.train import repeat_length
 from contactstudy.plot.text import number
 from contactstudy.study.kind import Marks

@@ -80,7 +80,7 @@ class PassageKind(Kind):
     write_files = later(f"{_HERE}.fields:write_files")
     report = later(f"{_HERE}.report:report")
     summary = later(f"{_HERE}.terminal:summary")
-    doubts = later(f"{_HERE}.report.lost:flown_off")
+    doubts = later(f"{_HERE}.doubts:doubts")
     export = later(f"{_HERE}.export:export_press")
 
 

@@ -4,7 +4,6 @@ from rich.box import SIMPLE
 from rich.table import Table
 from rich.text import Text
 
-from contactstudy.study.kinds.passage.held_against import reversed_sentences
 from contactstudy.study.results import StudyResults
 
 _CAPTION = "error: relative L2 of the contact force, of the total and of its dynamic part"
@@ -66,7 +65,6 @@ def _measured(results: StudyResults) -> list[Table]:
                 f"{100 * channel['normalised_error']:.1f} %",
                 f"{1e3 * channel['timing']:.1f}",
             )
-    told += [f"warning: {sentence}" for sentence in reversed_sentences(found)]
     table.caption = Text("\n".join(told))
     return [table]
 

@@ -17,7 +17,7 @@ from contactstudy.compare.bridge_codes import (
     track_twist,
 )
 from contactstudy.figures.deck import largest_station
-from contactstudy.figures.deck_damping import bridge_of, loaded_deck_of
+from contactstudy.figures.resolved_track import bridge_of, loaded_deck_of
 from contactstudy.plot.text import label, number
 from contactstudy.report.blocks import Block, table
 from contactstudy.solvers.bridge_frames import RAIL
