@@ -63,7 +63,7 @@ class Irregularity(Parameters):
         "how the formula is read: its variance is the integral over one or both signs",
     ] = by()
     roughness: Annotated[
-        float, Unit("m^2*rad/m"), Above(0), _PAPER, "A_r of eq. (3)"
+        float, Unit("m^2*rad/m"), Above(0), Usual(1e-10, 1e-5), _PAPER, "A_r of eq. (3)"
     ] = 0.8e-7  # fmt: skip
     omega_1: Annotated[float, Unit("rad/m"), AtLeast(0), _PAPER, "of eq. (3)"] = 0.0
     omega_2: Annotated[q.Wavenumber, _PAPER, "of eq. (3)"] = 1.0

@@ -13,6 +13,7 @@ import numpy as np
 from contactstudy.arrays import Array
 from contactstudy.csv_rows import read_rows
 from contactstudy.exceptions import InputError
+from contactstudy.irregularity.depth_doubts import impossible
 from contactstudy.irregularity.flats import LocalDefect, TreadLines
 from contactstudy.irregularity.measured import Interpolation
 from contactstudy.irregularity.table import read_numbers
@@ -68,12 +69,13 @@ def read_depth_map(path: Path, interpolation: Interpolation = "cubic") -> DepthT
     Raises
     ------
     InputError
-        For a file that cannot be read, missing columns, cells that are no finite numbers, or
-        places that are not a full grid of two or more by two or more.
+        For a file that cannot be read, missing columns, cells that are no finite numbers, depths
+        that no wheel has (`contactstudy.irregularity.depth_doubts`), or places that are not a full
+        grid of two or more by two or more.
     """
     along = "s" if "s" in (name.strip() for name in read_rows(path)[0][1]) else "angle"
-    table, _, problems = read_numbers(path, (along, "y", "depth"))
-    raise_if(problems)
+    table, lines, problems = read_numbers(path, (along, "y", "depth"))
+    raise_if(problems or impossible(path, table[:, 2], lines))
     places, i = np.unique(table[:, 0], return_inverse=True)
     y, j = np.unique(table[:, 1], return_inverse=True)
     cells = i * len(y) + j

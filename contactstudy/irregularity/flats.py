@@ -19,6 +19,7 @@ from contactstudy.validation import (
     Naming,
     Parameters,
     Unit,
+    Usual,
     complaint,
 )
 from contactstudy.validation import quantities as q
@@ -97,7 +98,7 @@ class RoundedFlat(LocalDefect):
 
     length: Annotated[q.Length, AtMost(0.5), Key("wheel_defect_length"), "along the tread"] = 0.04
     middle: Annotated[
-        float | None, Unit("m"), Key("wheel_defect_depth"),
+        float | None, Unit("m"), Usual(1e-6, 0.01), Key("wheel_defect_depth"),
         "in the middle; that of the chord, l^2/8R, if left out",
     ] = None  # fmt: skip
 

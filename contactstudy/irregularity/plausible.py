@@ -47,13 +47,13 @@ def implausible(
             for k in np.flatnonzero(steps > longest * (1 + 1e-9))
         ],
     )
-    placeholders = _placeholders(level)
+    empty = placeholders(level)
     problems += listed(
         file,
         [
             f"line {lines[k]}, column '{column}' is {level[k]:g}, which looks like a placeholder "
             "for no value; leave such rows out"
-            for k in np.flatnonzero(placeholders)
+            for k in np.flatnonzero(empty)
         ],
     )
     name, metre = unit
@@ -63,7 +63,7 @@ def implausible(
         [
             f"line {lines[k]}, column '{column}' is {level[k]:g} {name}; allowed: at most "
             f"{LARGEST / metre:g} {name} (is the unit right?)"
-            for k in np.flatnonzero(huge & ~placeholders)
+            for k in np.flatnonzero(huge & ~empty)
         ],
     )
     if not huge.any() and (complaint := wrong_size(file, x, level, column, unit)):
@@ -73,7 +73,7 @@ def implausible(
     return problems
 
 
-def _placeholders(level: Array) -> BoolArray:
+def placeholders(level: Array) -> BoolArray:
     """Which values (n,) are runs of nines or ends of integers, far from all that is measured."""
     middle = float(np.median(level))
     spread = 1.4826 * float(np.median(np.abs(level - middle)))

@@ -11,7 +11,7 @@ import numpy as np
 
 from contactstudy.arrays import Array
 from contactstudy.irregularity.shapes import haversine, smoothstep
-from contactstudy.validation import Key, Naming, Parameters, Variants, complaint
+from contactstudy.validation import Key, Naming, Parameters, Usual, Variants, complaint
 from contactstudy.validation import quantities as q
 
 
@@ -59,7 +59,7 @@ class DippedJoint(_LongDefect):
     P2 formulas (the shape of STEM's rail joint).
     """
 
-    depth: Annotated[q.Length, Key("rail_defect_depth"), "at the joint"] = 0.002
+    depth: Annotated[q.Length, Usual(1e-5, 0.02), Key("rail_defect_depth"), "at the joint"] = 0.002
 
     @property
     def angle(self) -> float:
@@ -76,7 +76,9 @@ class DippedJoint(_LongDefect):
 class Weld(_LongDefect):
     """A weld that stands up, or is ground too low: ``r = h/2 (1 + cos(2 pi x/l))``."""
 
-    height: Annotated[q.Position, Key("rail_defect_height"), "of the weld or step, up"] = 0.0003
+    height: Annotated[
+        q.Position, Usual(1e-6, 0.01), Key("rail_defect_height"), "of the weld or step, up"
+    ] = 0.0003
 
     def level(self, x: Array) -> Array:
         """See `RailDefect`."""
@@ -88,9 +90,9 @@ class Corrugation(_LongDefect):
     """A stretch of corrugated rail, a cosine that grows and ends within one wavelength."""
 
     wavelength: Annotated[q.Length, Key("rail_defect_wavelength"), "of the corrugation"] = 0.05
-    amplitude: Annotated[q.Length, Key("rail_defect_amplitude"), "half from crest to trough"] = (
-        2.5e-5
-    )
+    amplitude: Annotated[
+        q.Length, Usual(1e-7, 2e-3), Key("rail_defect_amplitude"), "half from crest to trough"
+    ] = 2.5e-5
 
     def problems(self, key: Naming) -> list[str]:
         """Too short to grow and to end."""
@@ -109,7 +111,9 @@ class Corrugation(_LongDefect):
 class Step(RailDefect):
     """A difference in height of two rail ends; behind it the rail stays at the new height."""
 
-    height: Annotated[q.Position, Key("rail_defect_height"), "of the weld or step, up"] = 0.0003
+    height: Annotated[
+        q.Position, Usual(1e-6, 0.01), Key("rail_defect_height"), "of the weld or step, up"
+    ] = 0.0003
     half_length = 0.0
 
     def level(self, x: Array) -> Array:

@@ -8,7 +8,7 @@ import numpy as np
 from contactstudy.arrays import Array
 from contactstudy.irregularity.depth_map import DepthMap
 from contactstudy.irregularity.flats import Flat, RoundedFlat, WheelDefect
-from contactstudy.validation import AtLeast, Key, Naming, Unit, Variants, complaint
+from contactstudy.validation import AtLeast, Key, Naming, Unit, Usual, Variants, complaint
 
 
 @dataclass(frozen=True)
@@ -19,8 +19,8 @@ class OutOfRound(WheelDefect):
         tuple[int, ...], AtLeast(1), Key("wheel_defect_orders"), "waves round the wheel"
     ] = (1,)  # fmt: skip
     amplitudes: Annotated[
-        tuple[float, ...], Unit("m"), AtLeast(0), Key("wheel_defect_amplitudes"),
-        "of each order, up",
+        tuple[float, ...], Unit("m"), AtLeast(0), Usual(1e-8, 5e-3),
+        Key("wheel_defect_amplitudes"), "of each order, up",
     ] = (1e-4,)  # fmt: skip
     phases: Annotated[
         tuple[float, ...], Unit("rad"), Key("wheel_defect_phases"), "of each order; 0 if left out"

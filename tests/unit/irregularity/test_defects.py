@@ -1,11 +1,14 @@
 """Defects of rail and wheel against their closed forms, and where they may lie."""
 
+import re
+
 import numpy as np
 import pytest
 
 from contactstudy import irregularity as irr
 from contactstudy.contact.filters import Trajectory
 from contactstudy.exceptions import InputError
+from contactstudy.irregularity.depth_doubts import doubtful
 
 R = 0.43
 
@@ -118,12 +121,49 @@ def test_a_depth_map_is_read_and_interpolated(tmp_path, along, scale, interpolat
         ("s,y,depth\n0,0,0\n1,0,0\n0,1,0", "a full grid"),
         ("s,y,depth\n0,0,0\n1,0,0\n0,1,0\n0,1,0", "a full grid"),
         ("s,y,depth\n0,0,0\n1,0,nan\n0,1,\n1,1,0", "line 3, column 'depth' is 'nan'"),
+        ("s,y,depth\n0,0,0\n1,0,-999\n0,1,0\n1,1,0", "line 3, .* looks like a placeholder"),
+        ("s,y,depth\n0,0,0\n1,0,0\n0,1,200\n1,1,0", "line 4, .* is 200 mm; allowed: -10 to 10"),
     ],
 )
 def test_what_is_no_depth_map_is_refused(tmp_path, text, message):
     (tmp_path / "map.csv").write_text(text)
     with pytest.raises(InputError, match=message):
         irr.DepthMap(file=str(tmp_path / "map.csv")).half_length(R)
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (lambda s, y, d: (s, y, d), ""),
+        (lambda s, y, d: (s, y, 0.0), "the depth is zero throughout"),
+        (
+            lambda s, y, d: (s, y, 1e-3 * d),
+            r"the largest depth is 0\.2 um; column 'depth' is in mm",
+        ),
+        (lambda s, y, d: (s, y, -d), r"no depth is above 0: the tread stands up by 0\.2 mm"),
+        (
+            lambda s, y, d: (s, y + 100.0, d),
+            "y goes from 80 to 120 mm; the tape circle, y = 0, has",
+        ),
+        (lambda s, y, d: (s, y, d + 0.1), r"ends along the wheel 0\.1 mm of depth are left"),
+        (lambda s, y, d: (s, y, d + 5.0 * (s == y == 0)), r"s = -5 and 0 mm, y = 0 mm, .* by 5\."),
+    ],
+)
+def test_maps_that_may_be_none_are_warned_of(tmp_path, change, said):
+    places = [(s, y) for s in range(-30, 31, 5) for y in (-20, 0, 20)]
+    rows = [change(s, y, 0.2 * np.cos(np.pi * s / 60) ** 2) for s, y in places]
+    file = tmp_path / "map.csv"
+    file.write_text("\n".join(["s,y,depth", *(f"{s},{y},{d:.9f}" for s, y, d in rows)]))
+    found = doubtful(file, irr.DepthMap(file=str(file)).read, R)
+    assert len(found) == bool(said)
+    assert not said or re.search(said, found[0])
+
+
+def test_a_map_of_the_whole_wheel_has_no_ends(tmp_path):
+    file = tmp_path / "map.csv"
+    rows = [f"{angle},{y},0.1" for angle in range(-180, 181, 5) for y in (-20, 20)]
+    file.write_text("\n".join(["angle,y,depth", *rows]))
+    assert not doubtful(file, irr.DepthMap(file=str(file)).read, R)
 
 
 def test_defects_are_not_faded_and_must_lie_behind_the_fade_in():

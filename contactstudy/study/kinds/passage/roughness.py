@@ -12,6 +12,7 @@ import numpy as np
 from contactstudy import irregularity as irr
 from contactstudy.exceptions import InputError
 from contactstudy.given_files import content_digest
+from contactstudy.irregularity.depth_doubts import doubtful as doubtful_map
 from contactstudy.irregularity.doubtful import doubtful
 from contactstudy.irregularity.shown import IrregularityInfo, Level, SpectrumCurve
 from contactstudy.study.kinds.passage.level import sampled
@@ -134,6 +135,8 @@ def describe(study: Study) -> Described:
     elif isinstance(profile, irr.HarmonicProfile) and not profile.amplitudes.any():
         notes.append("the irregularity is zero throughout: the rail is smooth")
     notes += [f"irregularity: {text}"] if (text := too_sharp(study)) else []
+    if isinstance(worn := table.wheel_defect, irr.DepthMap):
+        notes += doubtful_map(Path(worn.file), worn.read, study.vehicle.wheel_radius)
     described = Described(study, profile, measured, tuple(notes))
     if measured:
         _ = described.info  # a level too short for an estimate is refused here
