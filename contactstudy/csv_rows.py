@@ -4,6 +4,7 @@ import csv
 import io
 import math
 import re
+from collections import Counter
 from pathlib import Path
 
 from contactstudy.exceptions import InputError
@@ -63,12 +64,18 @@ def header_cells(path: Path, rows: list[tuple[int, list[str]]]) -> list[str]:
     header = [name.strip() for name in cells]
     while header and not header[-1]:
         header.pop()
+    times = Counter(header)
     faults = [
         f"line {line}: there is more than one column '{name}'"
         for name in dict.fromkeys(header)
-        if name and header.count(name) > 1
+        if name and times[name] > 1
     ]
     problems = listed(path, faults)
+    if len(header) == 1 and len(rows) > 1 and all(len(cells) > 1 for _, cells in rows[1:]):
+        raise InputError(
+            f"{path}, line {line} is {shown_cell(header[0])}; allowed: names of columns, parted by "
+            "commas, in the first line"
+        )
     wide = [
         (line, len(cells))
         for line, cells in rows[1:]
@@ -87,7 +94,7 @@ def header_cells(path: Path, rows: list[tuple[int, list[str]]]) -> list[str]:
     return header
 
 
-def listed(path: Path, faults: list[str]) -> list[str]:
+def listed(path: Path | str, faults: list[str]) -> list[str]:
     """The first faults of one kind with the file's name, and how many more there are."""
     shown = [f"{path}, {fault}" for fault in faults[:_SHOWN]]
     if len(faults) > _SHOWN:

@@ -1,3 +1,5 @@
+import time
+
 import numpy as np
 import pytest
 
@@ -120,6 +122,27 @@ def test_every_fault_of_a_file_is_reported_at_once(tmp_path):
 def test_files_without_the_data(tmp_path, text, expected):
     with pytest.raises(InputError, match=expected):
         measured_profile(_write(tmp_path / "none.csv", text), "level_mm", "mm")
+
+
+def test_first_lines_that_are_no_header_are_shown(tmp_path):
+    file = tmp_path / "level.csv"
+    for line in ("# measured in May", "sep=,", "Filename=a"):
+        file.write_text(line + "\nx,level\n0,1\n1,2\n")
+        with pytest.raises(
+            InputError, match=f"line 1 is '{line.strip(',')}'; allowed: names of columns"
+        ) as e:
+            measured_profile(file, "level", "mm")
+        assert len(e.value.problems) == 1
+
+
+def test_a_header_of_very_many_columns_is_read_at_once(tmp_path):
+    """Names are counted in one pass: pairwise, these would take a minute."""
+    file = tmp_path / "level.csv"
+    names = ",".join(f"c{k}" for k in range(100_000))
+    file.write_text(f"x,level,{names}\n0,1\n1,2\n2,1\n3,3\n4,1\n")
+    start = time.process_time()
+    measured_profile(file, "level", "mm")
+    assert time.process_time() - start < 5.0
 
 
 def test_files_that_cannot_be_read(tmp_path):
