@@ -203,6 +203,8 @@ def test_impossible_records_name_the_key(tmp_path, run, keys, message):
          r"needs 6\.1 m among journey\.stations"),
         ('"pad = station_displacement at 6 m"', '"pad"', r'must be like "COLUMN = SIGNAL"'),
         ("pad = ", "rail = ", r"there is no column 'rail'"),
+        ("pad = ", "t = ", r"channels\.0 = .* must be another column than measured\.time_column"),
+        ("pad = ", "bay = ", r"channels\.1 = .* column 'bay' is named 2 times; allowed: once"),
         ('"record.csv"', '"none.csv"', r"none\.csv: there is no such file"),
     ],
 )  # fmt: skip
@@ -212,6 +214,21 @@ def test_impossible_channels_name_the_key(tmp_path, run, replaced, by, message):
     path.write_text(FILE.format(keys="").replace(replaced, by))
     with pytest.raises(InputError, match=message):
         load_study(path)
+
+
+def test_gaps_and_placeholders_are_refused_by_line(tmp_path, run):
+    written(tmp_path, run)
+    head, *rows = (tmp_path / "record.csv").read_text().splitlines()
+    for k in (200, 201):
+        t, _, bay = rows[k].split(",")
+        rows[k] = f"{t},-999,{bay}"
+    (tmp_path / "record.csv").write_text("\n".join([head, *rows[:300], *rows[330:]]))
+    with pytest.raises(InputError) as error:
+        study(tmp_path)
+    gap, first, last = error.value.problems
+    assert "lines 301 to 302: 0.03027 s without a row; allowed: at most 0.009766 s" in gap
+    for line, told in ((202, first), (203, last)):
+        assert f"line {line}, column 'pad' is -999, which looks like a placeholder" in told
 
 
 def test_times_that_fall_and_records_that_are_too_short(tmp_path, run):

@@ -19,6 +19,7 @@ from contactstudy.solvers.bridge_sensors import IN_SPACE, ON_SUPPORTS, VARIABLES
 from contactstudy.solvers.dataset import POINT_SIGNALS, SIGNALS
 from contactstudy.solvers.journey import Journey
 from contactstudy.study.kinds.passage.on_bridge import planar_on
+from contactstudy.study.kinds.passage.record_faults import gaps, no_values, wrong_columns
 from contactstudy.track.model import Track
 from contactstudy.units import UnitError, to_si
 from contactstudy.validation import Above, File, Naming, Parameters, Unit, complaint, did_you_mean
@@ -137,6 +138,9 @@ class MeasuredRecord(Parameters):
                 factor(self.unit, _channel(text).unit)
             except UnitError as error:
                 found[k] = str(error)
+        if not found:
+            names = [channel.column for channel in self.parsed]
+            found = wrong_columns(self.time_column, names)
         return found
 
     @property
@@ -207,6 +211,9 @@ def _read(own: MeasuredRecord, changed: int) -> Record:
         line = lines[1:][falls][0]
         problems.append(f"{own.file}, line {line}: the time does not increase")
     if not problems:
+        problems += gaps(own.file, time, lines)
+        for column, values in zip(columns, table[:, len(named) :].T, strict=True):
+            problems += no_values(own.file, column, values, lines)
         problems += [
             f"{own.file}, column '{column}' is {values[0]:g} throughout; there is nothing to lay "
             "over a computed signal"
