@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 
 import numpy as np
 
-from contactstudy.validation import Above, Naming, Parameters, Same, Unit, Usual
+from contactstudy.validation import Above, AtMost, Naming, Parameters, Same, Unit, Usual, raise_if
 from contactstudy.validation import quantities as q
 from contactstudy.vehicle.car import WEIGHT
 from contactstudy.vehicle.lumped import GRAVITY, BareWheel
@@ -28,7 +28,12 @@ _HSLM_A = {
     "A10": (11, 27.0, 2.0, 210e3),
 }
 _POWER_CAR = (0.0, 3.0, 14.0, 17.0)
+_MOST = 1000  # axles, whose matrices are dense: with both rails 0.1 GB
 _TO_COACH = 3.525  # m, last axle of the power car to the first of the coach
+
+
+def _too_many(name: str, axles: int) -> list[str]:
+    return [f"{name}: {axles} axles; must be at most {_MOST}"] if axles > _MOST else []
 
 
 @dataclass(frozen=True)
@@ -54,7 +59,11 @@ class Axles(Parameters, ABC):
         return None
 
     def vehicle(self, rails: int = 1) -> Vehicle:
-        """A bare wheel under every axle on one rail or two."""
+        """A bare wheel under every axle on one rail or two.
+
+        ``InputError`` for more axles than matrices are made of.
+        """
+        raise_if(_too_many("axles", len(self.axles[1])))
         behind, loads = (np.asarray(part, dtype=float) for part in self.axles)
         n = rails * len(loads)
         return Vehicle(
@@ -79,12 +88,13 @@ class AxleLoads(Axles):
         "of the axles from front to rear",
     ] = (134e3,)  # fmt: skip
     axle_distances: Annotated[
-        tuple[float, ...], Unit("m"), Above(0), "from each axle to the next"
+        tuple[float, ...], Unit("m"), Above(0), Usual(0.5, 100.0), "from each axle to the next"
     ] = ()  # fmt: skip
 
     def problems(self, key: Naming) -> Iterable[str]:
         """Distances that do not fit the loads."""
         loads, distances = len(self.axle_loads), len(self.axle_distances)
+        yield from _too_many(key("axle_loads"), loads)
         if not loads:
             yield f"{key('axle_loads')}: must have at least one load"
         elif distances != loads - 1:
@@ -138,7 +148,7 @@ class FreightWagons(Axles):
     Four axles 1.5, 3.3, 7.95 and 9.75 m behind the front coupler of a wagon of 11.25 m.
     """
 
-    wagons: Annotated[q.Count, "number of wagons"] = 10
+    wagons: Annotated[q.Count, AtMost(_MOST // 4), "number of wagons"] = 10
 
     @property
     def repeat_length(self) -> float | None:

@@ -8,7 +8,17 @@ from functools import cached_property
 from typing import Annotated, Any
 
 from contactstudy.exceptions import InputError
-from contactstudy.validation import File, Naming, Parameters, Unit, Written, complaint, listed
+from contactstudy.validation import (
+    File,
+    Naming,
+    Parameters,
+    Unit,
+    Usual,
+    Written,
+    complaint,
+    listed,
+    raise_if,
+)
 from contactstudy.vehicle.car import Car
 from contactstudy.vehicle.derived import train
 from contactstudy.vehicle.model import Vehicle
@@ -16,6 +26,8 @@ from contactstudy.vehicle.suspended import CarModel, bogie_vehicle, car_vehicle,
 from contactstudy.vehicle.vehicle_file import read_car
 
 _ENTRY = re.compile(r"(?:(?P<count>[1-9][0-9]{0,2}) x )?(?P<file>.+?)(?P<reversed> reversed)?")
+_MOST: dict[CarModel, int] = {"planar": 250, "three_dimensional": 80}
+"""Cars of a train, whose matrices are dense: 2500 dofs."""
 _TOLERANCE = 1e-9  # m, of ends that touch
 
 
@@ -83,7 +95,7 @@ class Train(_OfCars):
         "planar"
     )
     gaps: Annotated[
-        tuple[float, ...], Unit("m"), Written(listed, "a list of them"),
+        tuple[float, ...], Unit("m"), Usual(0.0, 30.0), Written(listed, "a list of them"),
         "between the ends of neighbouring cars, one for all or one each; lengths are over couplers",
     ] = (0.0,)  # fmt: skip
 
@@ -101,6 +113,7 @@ class Train(_OfCars):
         if len(cars) < len(set(self.cars)):
             return
         n = len(self.consist)
+        yield from self._too_many(key("cars"))
         if len(self.gaps) not in (1, n - 1):
             has = f"{key('gaps')}: has {len(self.gaps)} values"
             yield f"{has}; must have 1, or {n - 1} for {n} cars"
@@ -116,6 +129,11 @@ class Train(_OfCars):
                         self.model,
                         f"car {text} lacks lateral data: {', '.join(car.missing)}",
                     )
+
+    def _too_many(self, name: str) -> list[str]:
+        n, most = len(self.consist), _MOST[self.model]
+        told = f'{name}: {n} cars; must be at most {most} with model = "{self.model}"'
+        return [told] if n > most else []
 
     @cached_property
     def consist(self) -> tuple[tuple[Car, bool], ...]:
@@ -178,7 +196,11 @@ class Train(_OfCars):
         ]
 
     def vehicle(self, rails: int | None = None) -> Vehicle:
-        """The whole train on one rail or two, by default as many as its model has."""
+        """The whole train on one rail or two, by default as many as its model has.
+
+        ``InputError`` for more cars than matrices are made of.
+        """
+        raise_if(self._too_many("cars"))
         rails = rails or (2 if self.model == "three_dimensional" else 1)
         made = {car: car_vehicle(car, self.model, rails) for car, _ in self.consist}
         cars = [car for car, _ in self.consist]

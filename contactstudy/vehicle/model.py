@@ -20,6 +20,20 @@ def _no_rows() -> Array:
     return np.zeros((0, 0))
 
 
+def _lowest_eigenvalue(matrix: Array) -> float:
+    """Of a symmetric matrix (n, n), from each part that is coupled: a train is one of many."""
+    from scipy.sparse import csr_array
+    from scipy.sparse.csgraph import connected_components
+
+    count, part = connected_components(csr_array(matrix), directed=False)
+    order = np.argsort(part, kind="stable")
+    parts = np.split(order, np.cumsum(np.bincount(part, minlength=count))[:-1])
+    return min(
+        float(np.linalg.eigvalsh(matrix[np.ix_(p, p)])[0]) if len(p) > 1 else matrix[p[0], p[0]]
+        for p in parts
+    )
+
+
 @dataclass(frozen=True)
 class Vehicle:
     """A linear vehicle on one rail or on two.
@@ -82,7 +96,7 @@ class Vehicle:
                 problems.append(f"vehicle {name}: must be finite")
             elif not np.allclose(matrix, matrix.T, rtol=1e-12, atol=0.0):
                 problems.append(f"vehicle {name}: must be symmetric")
-            elif nv and np.linalg.eigvalsh(matrix)[0] < -1e-9 * np.abs(matrix).max():
+            elif nv and _lowest_eigenvalue(matrix) < -1e-9 * np.abs(matrix).max():
                 problems.append(f"vehicle {name}: must be positive semi-definite")
         return problems
 

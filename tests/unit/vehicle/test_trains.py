@@ -76,6 +76,18 @@ def test_impossible_trains():
         Bogie(car="express")
 
 
+def test_trains_too_long_for_dense_matrices_are_refused_before_any_is_made():
+    for given in (
+        lambda: Train(cars=("999 x s300",)),
+        lambda: Train(cars=("200 x s300", "51 x s300")),
+        lambda: AxleLoads(axle_loads=(1e5,) * 1001, axle_distances=(3.0,) * 1000),
+        lambda: FreightWagons(wagons=251),
+    ):
+        with pytest.raises(InputError, match=r"at most (250|1000)"):
+            given()
+    assert FreightWagons(wagons=250).vehicle(2).n_dofs == 2000
+
+
 @pytest.mark.parametrize(
     "name, coaches, length, spacing, force",
     [("A1", 18, 18, 2.0, 170), ("A2", 17, 19, 3.5, 200), ("A3", 16, 20, 2.0, 180),

@@ -37,6 +37,11 @@ def test_impossible_vehicles():
     good = wheel_column()
     with pytest.raises(InputError, match="semi-definite"):
         dataclasses.replace(good, stiffness=-good.stiffness)
+    two = train([good, good], [0.0, -20.0])  # two parts that nothing couples
+    stiffness = two.stiffness.copy()
+    stiffness[3:, 3:] *= -1.0
+    with pytest.raises(InputError, match="stiffness: must be positive semi-definite"):
+        dataclasses.replace(two, stiffness=stiffness)
     with pytest.raises(InputError, match="shape"):
         dataclasses.replace(good, mass=np.eye(2))
     with pytest.raises(InputError, match="symmetric"):
