@@ -113,6 +113,12 @@ def _range(text: str, parameter: Parameter) -> list[Any] | None:
     match = _RANGE.fullmatch(text.strip())
     if match is None or text.strip() in parameter.choices:
         return None
+    bare = [_is_bare(match[end]) for end in ("first", "last")]
+    if parameter.unit and bare[0] != bare[1]:
+        raise UnitError(
+            f"has a unit at one end only; allowed: at both, or at neither (then in "
+            f"{parameter.unit})"
+        )
     ends, of = _ends(match["first"], match["last"], parameter)
     if match["x"]:
         numbers = _by_factor(*ends, _ratio(match["x"]))
@@ -128,6 +134,11 @@ def _range(text: str, parameter: Parameter) -> list[Any] | None:
     if parameter.limits.whole:
         return list(dict.fromkeys(round(n) for n in rounded))
     return list(rounded)
+
+
+def _is_bare(text: str) -> bool:
+    """Whether a text is a number without unit."""
+    return re.fullmatch(NUMBER, text.strip()) is not None
 
 
 def _ends(first: str, last: str, parameter: Parameter) -> tuple[tuple[float, float], str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from itertools import pairwise
 from pathlib import Path
@@ -26,6 +27,8 @@ from contactstudy.validation.messages import any_of
 
 _DRAWN = (SOBOL, LATIN)
 _SETTINGS = ("combine", "samples", "seed", "keep")
+# keys that are finer where they are smaller, whatever else is; of others both ways make sense
+_FINER_WHERE_SMALLER = re.compile(r"\.(time_step|(coarse_)?mesh_size|cell)$")
 _ANY = Parameter("", "", float, None, Limits())
 
 
@@ -111,8 +114,11 @@ class _Reader:
             x = made.coordinates
             steps = {b > a for a, b in pairwise(x)} if made.numeric else set()
             counts = (parameter := self._parameter("refine", key)) and parameter.limits.whole
-            if len(made) < 2 or len(steps) != 1 or (counts and x[0] > x[-1]) or min(x) <= 0.0:
-                more = ", that is increasing" if counts else ""
+            falls = _FINER_WHERE_SMALLER.search(key) is not None
+            wrong = made.numeric and ((counts and x[0] > x[-1]) or (falls and x[0] < x[-1]))
+            if len(made) < 2 or len(steps) != 1 or wrong or min(x) <= 0.0:
+                way = "increasing" if counts else "decreasing" if falls else ""
+                more = f", that is {way}" if way else ""
                 allowed = f"must be 2 or more numbers above 0, coarse to fine{more}"
                 self._wrong(f"refine.{key}", value, allowed)
                 continue

@@ -334,3 +334,12 @@ def test_what_a_refinement_says_of_its_keys(law, tmp_path):
         load_study(law(wrong))
     said = " ".join(caught.value.problems)
     assert "refine.why.law.word: unknown key" in said and "refine.expected.law.x" in said
+
+
+@pytest.mark.parametrize("values", ['["0.05 ms", "0.1 ms"]', '"0.05 ms to 0.2 ms x 2"'])
+def test_steps_of_time_are_refined_downwards(tmp_path, values):
+    path = tmp_path / "steps.toml"
+    text = f'[runs.point]\nsolver = "point"\n[refine]\n"journey.time_step" = {values}\n'
+    path.write_text(text)
+    with pytest.raises(InputError, match=r"refine\.journey\.time_step = .* that is decreasing"):
+        load_study(path)

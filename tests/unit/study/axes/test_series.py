@@ -74,6 +74,8 @@ def test_arrays_ranges_and_numbers_of_numpy_are_values_of_a_file():
         ("1 m to 2 m by 1e9, linear", "journey.fade_in", "2 to 20000 values"),
         ("1 m to 2 m", "journey.fade_in", "needs a step or a number of values"),
         ("1 m to 2 m by 0.3 m", "journey.fade_in", "whole steps"),
+        ("100 to 300 km/h by 50", "journey.speed", "has a unit at one end only; allowed: at both"),
+        ("20 km/h to 300 by 3, linear", "journey.speed", r"at neither \(then in m/s\)"),
         ("1 m to 2 m by 0 m", "journey.fade_in", "whole steps"),
         ("0 m to 2 m by 3, logarithmic", "journey.fade_in", "must not reach zero"),
         ("1 m to 9 m x 2", "journey.fade_in", "whole factors"),
