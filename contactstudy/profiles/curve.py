@@ -115,8 +115,13 @@ class ProfileCurve:
         """
         b = np.asarray(y, dtype=float)
         s, p = self._closest_points.samples
-        if np.any(np.diff(p[:, 0]) <= 0):
-            raise InputError(f"profile {self.name}: y does not grow all along the curve")
+        back = np.flatnonzero(np.diff(p[:, 0]) <= 0.0)
+        if back.size:
+            raise InputError(
+                f"profile {self.name}: y does not grow all along the curve through its points: it "
+                f"goes back at y = {1e3 * p[back[0], 0]:.4g} mm, z = {1e3 * p[back[0], 1]:.4g} mm; "
+                "are points too far apart on a steep side, or too scattered?"
+            )
         if not np.all((b >= p[0, 0] - 1e-12) & (b <= p[-1, 0] + 1e-12)):
             raise InputError(
                 f"profile {self.name}: y = {b.min():.6g} to {b.max():.6g} m lies beyond its ends "

@@ -36,6 +36,10 @@ _NOT_APPLIED = {
     "wheel": ("shift.y", "shift.z", "rotate"),
 }
 
+# what a header may state besides, of which nothing is done: MiniProf's (in lower case), Simpack's
+_MOVES = ("xoffset", "yoffset", "tilt")
+_SMOOTHED = ("approx.smooth", "point.dist.min")
+
 
 @dataclass(frozen=True)
 class FilePoints:
@@ -61,11 +65,12 @@ def read_points(path: Path, body: str) -> FilePoints:
         raise InputError(f"{path}: is the profile of a {BODY[suffix]} by its name, not of a {body}")
     rows = list(enumerate(file_text(path, "profile", "latin-1").split("\n"), 1))
     problems: list[str] = []
+    ignored: list[str] = []
     counted, factor = None, 1e-3
     if suffix in SIMPACK:
-        rows, factor = _simpack(path, rows, body, problems)
+        rows, factor = _simpack(path, rows, body, problems, ignored)
     elif suffix in MINIPROF:
-        rows, counted = _miniprof(path, rows)
+        rows, counted = _miniprof(path, rows, ignored)
     points, lines, faults, disabled = _numbers(rows)
     problems += listed(path, faults)
     if counted is not None and len(lines) + disabled < counted:
@@ -74,7 +79,8 @@ def read_points(path: Path, body: str) -> FilePoints:
         )
     if problems:
         raise InputError(problems)
-    notes = [f"{path.name}: {disabled} disabled lines left out"] if disabled else []
+    notes = [f"{path.name}: {text}, which is not applied" for text in ignored]
+    notes += [f"{path.name}: {disabled} disabled lines left out"] if disabled else []
     if counted is not None and len(lines) > counted:
         notes.append(f"{path.name}: {len(lines)} points read; its header counts {counted}")
     return _walk(path, FilePoints(points * factor, lines, notes))
@@ -83,8 +89,8 @@ def read_points(path: Path, body: str) -> FilePoints:
 Rows = list[tuple[int, str]]
 
 
-def _miniprof(path: Path, rows: Rows) -> tuple[Rows, int | None]:
-    """Rows of points and how many the header counts."""
+def _miniprof(path: Path, rows: Rows, ignored: list[str]) -> tuple[Rows, int | None]:
+    """Rows of points and how many the header counts; adds what it states besides."""
     begin = next(
         (k + 1 for k, (_, text) in enumerate(rows[:-1]) if not text.strip() and _pair(rows[k + 1])),
         None,
@@ -96,19 +102,27 @@ def _miniprof(path: Path, rows: Rows) -> tuple[Rows, int | None]:
     columns = values.get("columndef", "X,Y").upper()
     if not columns.startswith("X,Y"):
         raise InputError(f"{path}: ColumnDef={columns}; allowed: X,Y first")
+    ignored += [f"{name} = {v}" for name in _MOVES if (v := values.get(name)) and _not_zero(v)]
     count = values.get("xypoints", "")
     return rows[begin:], int(count) if re.fullmatch("[0-9]{1,7}", count) else None
 
 
-def _simpack(path: Path, rows: Rows, body: str, problems: list[str]) -> tuple[Rows, float]:
-    """Rows of points, and metres a unit of length."""
+def _simpack(
+    path: Path, rows: Rows, body: str, problems: list[str], ignored: list[str]
+) -> tuple[Rows, float]:
+    """Rows of points, and metres a unit of length; adds what is wrong and what is not applied."""
     bare = [text.split("!")[0].strip() for _, text in rows]
     if "point.begin" not in bare or "point.end" not in bare:
         missing = "point.end" if "point.begin" in bare else "point.begin"
         raise InputError(f"{path}: there is no line '{missing}' (cut short?)")
+    if bare.count("point.begin") > 1:
+        problems.append(
+            f"{path}: {bare.count('point.begin')} lines 'point.begin'; allowed: one block of points"
+        )
     begin, end = bare.index("point.begin"), bare.index("point.end")
     found = [match for text in bare[:begin] if (match := re.match(r"([\w.]+)\s*=\s*(\S+)", text))]
-    values = {match[1]: finite_number(match[2]) for match in found if match[1] != "type"}
+    texts = {match[1]: match[2] for match in found if match[1] != "type"}
+    values = {name: finite_number(text) for name, text in texts.items()}
     kinds = [match[2] for match in found if match[1] == "type"]
     if kinds and kinds[0] != {"rail": "0", "wheel": "1"}[body]:
         problems.append(f"{path}: type = {kinds[0]}; allowed: 0 for a rail, 1 for a wheel")
@@ -119,9 +133,21 @@ def _simpack(path: Path, rows: Rows, body: str, problems: list[str]) -> tuple[Ro
     ]
     units = values.get("units.len.f", 1e3)
     if not units or units <= 0.0:
-        problems.append(f"{path}: units.len.f = {units}; allowed: above 0")
+        problems.append(
+            f"{path}: units.len.f = {texts['units.len.f']}; allowed: a number above 0, units of "
+            "length a metre"
+        )
         units = 1e3
+    ignored += [f"{name} = {values[name]:g}" for name in _SMOOTHED if values.get(name)]
+    for axis in ("y", "z"):
+        low, high = (values.get(f"bound.{axis}.{end}") for end in ("min", "max"))
+        if low is not None and high is not None and low < high:
+            ignored.append(f"bound.{axis} = {low:g} to {high:g}")
     return rows[begin + 1 : end], 1.0 / units
+
+
+def _not_zero(text: str) -> bool:
+    return finite_number(text) != 0.0
 
 
 def _pair(row: tuple[int, str]) -> bool:

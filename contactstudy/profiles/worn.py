@@ -29,7 +29,7 @@ from contactstudy.profiles.outliers import (
 from contactstudy.profiles.profile_file import SUFFIXES, FilePoints, read_points
 from contactstudy.profiles.scatter import doubted
 from contactstudy.profiles.worn_csv import points_of_csv
-from contactstudy.profiles.worn_faults import POINTS, wrong_extent, wrong_order
+from contactstudy.profiles.worn_faults import POINTS, wrong_extent, wrong_order, wrong_width
 
 Body = Literal["rail", "wheel"]
 
@@ -88,7 +88,10 @@ def worn_curve(
         read, unit = read_points(file, body), "mm"
     else:
         read, unit = points_of_csv(file, unit, problems)
-    if foreign and ways == ("own", "own"):
+    own = ways == ("own", "own")
+    if foreign and own and (wrong := wrong_width(file, read.points, unit)):
+        raise InputError(wrong)
+    if foreign and own:
         read = _turned(file, read, body)
     elif foreign:
         read = _with_tape_circle(file, replace(read, points=turned(read.points, ways)[0]), body)

@@ -32,18 +32,24 @@ def wrong_order(path: Path, points: Array, lines: list[int]) -> list[str]:
     return listed(path, faults)
 
 
+def wrong_width(path: Path, points: Array, unit: str) -> str:
+    """An impossible width, "" for a possible one or too few points for any."""
+    if len(points) < POINTS or WIDTHS[0] <= (width := float(np.ptp(points[:, 0]))) <= WIDTHS[1]:
+        return ""
+    return (
+        f"{path}: the profile is {1e3 * width:.4g} mm wide with y in {unit}; allowed: "
+        f"{1e3 * WIDTHS[0]:g} to {1e3 * WIDTHS[1]:g} mm (is the unit right?)"
+    )
+
+
 def wrong_extent(path: Path, points: Array, lines: list[int], unit: str) -> list[str]:
     """Too few points, gaps between them, an impossible width, no point at y = 0."""
     if len(points) < POINTS:
         return [f"{path}: {len(points)} points; allowed: {POINTS} or more"]
+    if wrong := wrong_width(path, points, unit):
+        return [wrong]
     problems = []
     low, high = float(points[:, 0].min()), float(points[:, 0].max())
-    if not WIDTHS[0] <= high - low <= WIDTHS[1]:
-        problems.append(
-            f"{path}: the profile is {1e3 * (high - low):.4g} mm wide with y in {unit}; allowed: "
-            f"{1e3 * WIDTHS[0]:g} to {1e3 * WIDTHS[1]:g} mm (is the unit right?)"
-        )
-        return problems
     if not low < 0.0 < high:
         problems.append(
             f"{path}: y goes from {1e3 * low:.4g} to {1e3 * high:.4g} mm; allowed: from below to "

@@ -88,6 +88,55 @@ def test_the_manchester_rail_is_one_in_both_forms():
     assert one.point(s) == pytest.approx(two.point(s), abs=1e-7)
 
 
+@pytest.mark.parametrize(
+    ("suffix", "head", "said"),
+    [
+        (".ban", "XOffset=12.5\nColumnDef=X,Y\n", "xoffset = 12.5, which is not applied"),
+        (".ban", "Tilt=0.05\nXOffset=0.0000\nYOffset=\n", "tilt = 0.05, which is not applied"),
+        (".prr", "bound.y.min = -20\nbound.y.max = 20\npoint.begin", "bound.y = -20 to 20, which"),
+        (".prr", "bound.y.min = 1\nbound.y.max = 0\npoint.begin", ""),
+        (".prr", "point.dist.min = 5 ! a remark\npoint.begin", "point.dist.min = 5, which is not"),
+    ],
+)
+def test_what_a_header_states_and_nothing_is_done_of_is_said(tmp_path, suffix, head, said):
+    end = "point.end" if suffix == ".prr" else ""
+    file = write(tmp_path / f"a{suffix}", points("rail"), head, end, " ")
+    notes = worn_curve(file, "rail").notes
+    assert [said in note for note in notes if "not applied" in note] == [True] * bool(said)
+
+
+@pytest.mark.parametrize("unit", ["'mm'", "nan", "1,0e3", "0", "-1000"])
+def test_a_factor_of_length_that_is_none_is_shown(tmp_path, unit):
+    head = f"units.len.f = {unit}\npoint.begin"
+    file = write(tmp_path / "a.prr", points("rail"), head, "point.end", " ")
+    with pytest.raises(InputError, match=rf"units\.len\.f = {unit}; allowed: a number above 0"):
+        worn_curve(file, "rail")
+
+
+def test_two_blocks_of_points_are_refused(tmp_path):
+    file = write(tmp_path / "a.prr", points("rail"), "point.begin", "point.end", " ")
+    file.write_text(2 * f"{file.read_text()}\n")
+    with pytest.raises(InputError, match=r"2 lines 'point\.begin'; allowed: one block"):
+        worn_curve(file, "rail")
+
+
+@pytest.mark.parametrize("suffix", [".ban", ".prr", ".txt"])
+@pytest.mark.parametrize("factor", [1e-3, 1 / 25.4])
+def test_a_wrong_unit_is_told_by_the_width(tmp_path, suffix, factor):
+    head, end = ("point.begin", "point.end") if suffix == ".prr" else ("a=b\n", "")
+    head = "! plain" if suffix == ".txt" else head
+    file = write(tmp_path / f"a{suffix}", factor * points("rail"), head, end, " ")
+    with pytest.raises(InputError, match=r"mm wide with y in mm; allowed: 20 to 300 mm") as found:
+        worn_curve(file, "rail")
+    assert len(found.value.problems) == 1
+
+
+def test_points_whose_curve_goes_back_are_named(tmp_path):
+    file = write(tmp_path / "a.csv", rail_curve("60E1").point(np.arange(-0.0455, 0.0455, 2e-3)))
+    with pytest.raises(InputError, match=r"goes back at y = 36\.\d+ mm, z = -15"):
+        worn_curve(file, "rail").arc_of_y(0.0)
+
+
 @pytest.mark.parametrize("separator", [";", " ", "\t", "; "])
 def test_decimal_commas_are_named_and_not_read_as_two_numbers(tmp_path, separator):
     p = points("rail")
