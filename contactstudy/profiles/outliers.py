@@ -41,7 +41,8 @@ def outliers(points: Array) -> tuple[IntArray, Array]:
     three in a row, from the end of an arc, at which the curvature jumps. Such are outliers if
     they lie off by more than six of the points' own standard deviations, from the median of all,
     and would bend a fitted curve by more than `BEARABLE`. So is any that bends the points' own
-    curve more than `SHARPEST`. They are taken out, the worst first.
+    curve more than `SHARPEST`; of the last two at either end, which may as well begin another arc,
+    only such are. They are taken out, the worst first.
     """
     left = np.arange(len(points))
     found: list[int] = []
@@ -116,6 +117,7 @@ class _Deviations:
         apart[here] = np.maximum(KNOTS, POINTS * h)
         harm = BEARABLE * (apart[here] / h) * (apart[here] / np.pi) ** 2
         limit[here] = np.maximum(_LOWEST, harm)
+        limit[:_NEAR], limit[-_NEAR:] = 0.5 * SHARPEST * h[0] ** 2, 0.5 * SHARPEST * h[-1] ** 2
         return cls(off, shares, limit, apart, bend, sigma)
 
     @property
@@ -133,7 +135,8 @@ class _Deviations:
         runs = np.zeros((n, width + count - 1))
         for j in range(count):
             runs[: n - j, j : j + width] += self.shares[j:]
-        runs[: 2 * _NEAR] = runs[n - 2 * _NEAR - count + 1 :] = 0.0  # not all of it is seen there
+        if count > 1:  # too little is seen of several at the ends
+            runs[: 2 * _NEAR] = runs[n - 2 * _NEAR - count + 1 :] = 0.0
         return runs
 
     def of_steps(self) -> Array:
@@ -163,6 +166,8 @@ class _Deviations:
         worst, found = 0.0, dict[int, float]()
         for count in range(1, _LONGEST + 1):
             height, good, much = self.explained(self.of_runs(count))
+            for end, second in ((0, 1), (-1, -2)):  # the second one is seen at two points
+                good[end] &= not (good[second] and much[second] > much[end])
             good &= (np.abs(height) > self.limit) & (much > self.much)
             much = np.where(good, much, 0.0)
             k = int(np.argmax(much))

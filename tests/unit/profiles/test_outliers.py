@@ -27,6 +27,16 @@ def test_a_sound_profile_has_none(body, noise, spacing):
     assert not len(outliers(p)[0]) and not len(steps(p)[0])
 
 
+@pytest.mark.parametrize("body", ["rail", "wheel"])
+@pytest.mark.parametrize("height", [5e-5, -2e-4])
+@pytest.mark.parametrize("k", [0, 1, 2, 3, -4, -3, -2, -1])
+def test_a_point_off_at_an_end_is_itself_left_out(body, height, k):
+    p, normal, _ = sampled(body, 0.5e-3)
+    p[k] += height * normal[k]
+    which, off = outliers(p)
+    assert which.tolist() == [k % len(p)] and off == pytest.approx([abs(height)], rel=0.05)
+
+
 @pytest.mark.parametrize("seed", range(60))
 def test_points_off_are_found_wherever_they_are(seed):
     """One to three neighbours of 5 to 200 um, on running surfaces, among scatter they exceed."""
