@@ -22,7 +22,7 @@ def band_passed(
     """Positions at equal spacing and the level there between two wavelengths [m].
 
     Fourth-order Butterworth run forwards and backwards; `degree` is that of the spline to equal
-    spacing. ``InputError`` for wavelengths that rows or record cannot have, and for rows too uneven.
+    spacing. ``InputError`` for wavelengths that rows or record cannot have, and too uneven rows.
     """
     from scipy.interpolate import make_interp_spline
     from scipy.signal import butter, sosfiltfilt
