@@ -74,7 +74,7 @@ def reproduce(
     overrides: Overrides = (),
     ways: Ways = USUAL,
 ) -> None:
-    """Run the studies that make the paper's figures, by default the main comparison.
+    """Run shipped studies, by default the main comparison, into one folder.
 
     Parameters
     ----------

@@ -99,13 +99,17 @@ class Irregularity(Parameters):
     x_column: Annotated[str, "column of the CSV file with the position in m"] = "x"
     level_column: Annotated[str, "column with the level, up positive"] = ""
     left_column: Annotated[
-        str, _MEASURED, "column with the left rail's level, where there are two; as the right's"
+        str,
+        _MEASURED,
+        "column with the left rail's level, on a track with both; as the right's if left out",
     ] = ""  # fmt: skip
     lateral_column: Annotated[
-        str, _MEASURED, "column with the right rail's alignment, to the left positive; none"
+        str,
+        _MEASURED,
+        "column with the right rail's alignment, to the left positive; none if left out",
     ] = ""  # fmt: skip
     left_lateral_column: Annotated[
-        str, _MEASURED, "column with the left rail's alignment; as the right one's"
+        str, _MEASURED, "column with the left rail's alignment; as the right's if left out"
     ] = ""  # fmt: skip
     level_unit: Annotated[Literal["mm", "m", "um", "µm"], "its unit"] = "mm"
     origin: Annotated[q.Position, _MEASURED, "position in the file that is X = 0"] = 0.0

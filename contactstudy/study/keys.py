@@ -78,7 +78,8 @@ def _row(key: str, entry: Entry, known: Mapping[str, Entry]) -> str:
 def only(decider: str, values: Sequence[str], known: Mapping[str, Entry]) -> str:
     """With which values of a deciding key another applies; without which, if these are fewer."""
     others = [name for name in known[decider].parameter.choices if name not in values]
-    fewer, word = (others, "not") if len(others) < len(values) else (values, "only")
+    few = 0 < len(others) < len(values)
+    fewer, word = (others, "not") if few else (values, "only")
     return f"{word} with {decider} = {' or '.join(fewer)}"
 
 

@@ -168,6 +168,7 @@ def test_key_reference_has_every_key():
     text = key_reference(tables, Study)
     for row in ("`companions` |  | [] | a list, each text |", "`compare.reference` |  |  | text |"):
         assert row in text.partition("## [")[0]
+    assert "l, where it is 1/e; only with coherence = decaying |" in text
     for key in (*COMBINATIONS, "combine", "samples", "seed", "keep", "expected", *TABLES):
         assert key in AXES
     for name, table in tables.items():

@@ -4,6 +4,7 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
+from contactstudy.plot.text import listing
 from contactstudy.solvers.journey import Journey
 from contactstudy.study.kinds.passage.own_error import DEFAULTS, ReferenceError
 from contactstudy.study.kinds.passage.solid import Solid
@@ -37,7 +38,7 @@ def reference_error(results: StudyResults) -> tuple[ReferenceError | None, str]:
     if short or defects != {"none"}:
         changed.append("irregularity")
     if changed:
-        return None, f"measured on the default case only, from which differ {', '.join(changed)}"
+        return None, f"measured on the default case only, which has another {listing(changed)}"
     return DEFAULTS, ""
 
 
