@@ -14,7 +14,7 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from contactstudy.exceptions import InputError
-from contactstudy.figures.signals import SIGNALS
+from contactstudy.figures.signals import DECK, SIGNALS, Signal
 from contactstudy.files import write_file, writing
 from contactstudy.plot.style import (
     PNG_DPI,
@@ -24,6 +24,7 @@ from contactstudy.plot.style import (
     new_figure,
     run_styles,
 )
+from contactstudy.plot.text import capital, pretty_unit
 from contactstudy.study.results import StudyResults
 from contactstudy.validation import did_you_mean
 
@@ -36,7 +37,9 @@ _TOLD_APART = 36
 """Curves of a picture: six colours with six dash patterns."""
 _MOST = 1000
 """Curves of a signal."""
-_SHOWN = {signal.name: signal for signal in SIGNALS}
+_SHOWN = {signal.name: signal for signal in (*SIGNALS, *DECK)}
+_LARGER = {"N": ("kN", 1e-3), "1": ("", 1.0)}
+"""Unit of the results -> that of a picture, and its scale; a displacement has mm."""
 
 
 @dataclass(frozen=True)
@@ -202,14 +205,12 @@ def _figure(found: Sequence[Trace], reference: str | None) -> Figure:
     panels = figure.subplots(len(signals), 1, squeeze=False, sharex=True)[:, 0]
     for axes, signal in zip(panels, signals, strict=True):
         own = [t for t in found if t.signal == signal]
-        known = _SHOWN.get(signal)
-        unit = known.unit if known else own[0].attrs.get("units", "")
+        shown = _shown(signal, own[0].attrs)
         # the reference is drawn last, on top
         for t in sorted(own, key=lambda t: t.run == reference):
-            values = t.values * known.scale if known else t.values
-            axes.plot(t.x, values, label=t.label, **styles[t.label].line)
+            axes.plot(t.x, shown.scale * t.values, label=t.label, **styles[t.label].line)
         axes.set_title(own[0].attrs.get("long_name", signal.replace("_", " ")), loc="left")
-        axes.set_ylabel(" ".join([known.axis if known else "", f"({unit})" if unit else ""]))
+        axes.set_ylabel(f"{shown.axis} ({shown.unit})" if shown.unit else shown.axis)
     # the legend is that of the first panel: it names the curves of all
     there = set(panels[0].get_legend_handles_labels()[1])
     for name in [name for name in runs if name not in there]:
@@ -220,6 +221,18 @@ def _figure(found: Sequence[Trace], reference: str | None) -> Figure:
     panels[-1].set_xlabel(f"{abscissa} ({found[0].abscissa_unit})")
     figure_legend(figure, panels[0])
     return figure
+
+
+def _shown(signal: str, attrs: dict[str, Any]) -> Signal:
+    """How a signal is drawn; one that the reports do not have, by what the results say of it."""
+    if signal in _SHOWN:
+        return _SHOWN[signal]
+    text = attrs.get("long_name", signal.replace("_", " "))
+    axis = capital(text.partition(" of ")[0].partition(",")[0])
+    unit = attrs.get("units", "")
+    larger = ("mm", 1e3) if (unit, axis) == ("m", "Displacement") else _LARGER.get(unit)
+    unit, scale = larger or (pretty_unit(unit), 1.0)
+    return Signal(signal, text, axis, unit, scale)
 
 
 def _table(found: Sequence[Trace]) -> str:

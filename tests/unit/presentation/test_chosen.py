@@ -103,6 +103,30 @@ def test_the_legend_names_the_curves_of_all_panels(results):
     assert names == ["point", "point, station 12", "point, station 18"]
 
 
+@pytest.mark.parametrize(
+    ("signal", "attrs", "label", "scale"),
+    [
+        ("contact_force", {"units": "N"}, "Force (kN)", 1e-3),
+        ("deck_displacement", {"units": "m"}, "Displacement (mm)", 1e3),
+        (
+            "pier_displacement",
+            {"units": "m", "long_name": "displacement of the pier's top, up"},
+            "Displacement (mm)",
+            1e3,
+        ),
+        ("deck_strain", {"units": "1", "long_name": "strain of the deck"}, "Strain", 1.0),
+        ("heave", {"units": "m/s^2"}, "Heave (m/s²)", 1.0),
+    ],
+)
+def test_an_axis_has_its_quantity_and_unit(results, signal, attrs, label, scale):
+    values = xr.Variable("time", T, attrs)
+    results = replace(results, runs={"point": a_run(1.0).assign({signal: values})})
+    with figure_style():
+        (axes,) = _figure(traces(results, [signal], []), None).axes
+        assert axes.get_ylabel() == label
+        np.testing.assert_allclose(axes.lines[0].get_ydata(), scale * T)
+
+
 def test_a_part_is_cut_out(results):
     for trace in within(traces(results, ["contact_force"], []), 20.0, 30.0):
         np.testing.assert_allclose(trace.x, [20.0, 25.0, 30.0])
