@@ -1,12 +1,17 @@
 """Draw curves that are given as data, in the one style."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from contactstudy.plot.curves import Plot
 from contactstudy.plot.style import REFERENCE_STYLE, figure_legend, new_figure, run_styles
+from contactstudy.plot.text import tick
+
+_LEVELS = 9
+"""So many values of an abscissa at most are its ticks."""
 
 
 def draw(plot: Plot) -> Figure:
@@ -34,8 +39,11 @@ def draw_pairs(plots: Sequence[Plot]) -> Figure:
 def _draw(axes: Axes, plot: Plot) -> None:
     labels = [c.label for c in plot.curves if c.style != "reference"]
     styles = run_styles(labels, None)
+    black = run_styles([c.label for c in plot.curves if c.style == "reference"], None)
+    for label, style in black.items():  # dashes tell several of them apart
+        styles[label] = replace(REFERENCE_STYLE, linestyle=style.linestyle)
     for c in plot.curves:
-        style = REFERENCE_STYLE if c.style == "reference" else styles[c.label]
+        style = styles[c.label]
         line = style.line | {"label": c.label}
         if c.style == "points":
             line |= {"linestyle": "none"}
@@ -43,3 +51,7 @@ def _draw(axes: Axes, plot: Plot) -> None:
             line |= {"marker": style.marker, "markersize": 4, "markerfacecolor": "none"}
         axes.plot(c.x, c.y, **line)
     axes.set(xscale=plot.x_scale, yscale=plot.y_scale, xlabel=plot.x_label, ylabel=plot.y_label)
+    levels = sorted({x for c in plot.curves for x in c.x})
+    if plot.x_scale == "log" and len(levels) <= _LEVELS:
+        axes.set_xticks(levels, [tick(x) for x in levels])
+        axes.set_xticks([], minor=True)
