@@ -11,7 +11,7 @@ CORNER = """
 As drawn the wheel touches at the gauge corner alone. The inclined force pushes rail and rim apart
 until the tread carries as well, in both programs; wheel and rail then stand 0.45 mm further apart
 sideways. CalculiX pairs the faces once a step. With the pairs of an earlier place its answer
-depends on where that was: a first step of 110 um, then the load, gives a share of the gauge corner
+depends on where that was: a first step of 110 µm, then the load, gives a share of the gauge corner
 of 0.49, and 0.39 once steps at the same load no longer move it, from whatever first step. So the
 load step is repeated here, and the last step is held against the one before it.
 

@@ -52,8 +52,8 @@ def press_checks(
     """Approach, area and peak pressure of two presses, with their bands."""
     peak, reference = float(ours.face_pressure.max()), float(theirs.face_pressure.max())
     return (
-        check_shown(f"approach, {how}", ours.approach, theirs.approach, "um", source, bands[0]),
-        check_shown(f"contact area, {how}", ours.area, theirs.area, "mm^2", source, bands[1]),
+        check_shown(f"approach, {how}", ours.approach, theirs.approach, "µm", source, bands[0]),
+        check_shown(f"contact area, {how}", ours.area, theirs.area, "mm²", source, bands[1]),
         check_shown(f"{PEAK}, {how}", peak, reference, "MPa", source, bands[2]),
     )
 

@@ -44,7 +44,7 @@ of CalculiX's.
 "Flat faces": {model}, its gap and displacements linear between the nodes as CalculiX has them; \
 what differs is elements, condensation, contact algorithm and integration points. "Smooth \
 profiles": the press as the program runs it, 2 x 2 Gauss points a face, the gap between the smooth \
-profiles, the area from the gap around the patch. The sagitta of the faces, {sagitta:.2g} um, is \
+profiles, the area from the gap around the patch. The sagitta of the faces, {sagitta:.2g} µm, is \
 what the two differ by: with so few faces over a patch it moves single points into contact and \
 single pressures by a tenth, so these are reported beside Hertz and not judged; how they converge \
 is the subject of other cases."""
@@ -91,7 +91,7 @@ def _case(
             "smooth profiles", smooth, theirs, source, (0.01 if reduced else None, None, None)
         ),
         check_shown(f"{PEAK}, {against} p0", peak, hertz.peak_pressure, "MPa", "Hertz", None),
-        check_shown(f"area, {against}", smooth.area, hertz.area, "mm^2", "Hertz", None),
+        check_shown(f"area, {against}", smooth.area, hertz.area, "mm²", "Hertz", None),
     )
     h = cell.size
     return CaseResult(

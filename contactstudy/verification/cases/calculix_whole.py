@@ -46,9 +46,9 @@ contact frictionless and face to face.
 
 The penalty is a hundredth of the default, for both. On so coarse a mesh the flat faces of the two \
 bodies meet at crossings of their ridges; with a stiff penalty all the pressure stands in a few \
-spots there and hangs on where either program has its integration points. "Flat faces" and "smooth \
-profiles" are what they are in the case calculix_coarse, with the rail's nodes all kept and the \
-wheel condensed; smooth profiles are reported and not judged.
+spots there and depends on where either program has its integration points. "Flat faces" and \
+"smooth profiles" are what they are in the case calculix_coarse, with the rail's nodes all kept \
+and the wheel condensed; smooth profiles are reported and not judged.
 
 The program is linear: normals and places of the undeformed bodies. CalculiX pairs the faces where \
 the step before has moved them: the wheel's rim gives way sideways."""

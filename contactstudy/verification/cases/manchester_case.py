@@ -135,10 +135,11 @@ def _plot(rows: list[ManchesterRow], name: str, label: str, scale: float) -> Plo
     second = [r for r in rows if r.patch > 1]
     if second:
         curves.append(drawn("second patch", second, "points"))
+    quantity, unit = label.rstrip(")").split(" (")
     return Plot(
-        f"{label.split(' (')[0].capitalize()} over the lateral shift of the wheelset. "
-        f"Left wheel from {curves[0].y[0]:.4g} to {curves[0].y[-1]:.4g}, "
-        f"right wheel up to {max(curves[1].y):.4g}.",
+        f"{quantity.capitalize()} over the lateral shift of the wheelset. "
+        f"Left wheel from {curves[0].y[0]:.4g} to {curves[0].y[-1]:.4g} {unit}, "
+        f"right wheel up to {max(curves[1].y):.4g} {unit}.",
         "lateral shift (mm)",
         label,
         tuple(curves),

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 
 from contactstudy.halfspace.hertz import contact_modulus, hertz_contact
 from contactstudy.plot.curves import Plot, curve
+from contactstudy.plot.text import tick
 from contactstudy.verification.cases.refinement import BAND, QUANTITIES, Refinement, common
 from contactstudy.verification.check import Cell, Check, ResultTable, check_at_most
 
@@ -13,7 +16,7 @@ from contactstudy.verification.check import Cell, Check, ResultTable, check_at_m
 def tables(name: str, scale: float, series: Refinement) -> tuple[ResultTable, ...]:
     """Differences from the finest level and observed orders, for levels times `scale`."""
     short = ("force", "dynamic part", f"below {BAND:g} Hz", "peak pressure", "its mean")
-    finest = f"{scale * series.levels[-1]:.4g}"
+    finest = _at(name, scale * series.levels[-1])
     rows: list[tuple[Cell, ...]] = []
     against = np.append(series.against_finest, np.zeros((1, len(QUANTITIES))), axis=0)
     for level, row, run in zip(series.levels, against, series.runs, strict=True):
@@ -28,7 +31,9 @@ def tables(name: str, scale: float, series: Refinement) -> tuple[ResultTable, ..
         for k, row in enumerate(series.orders)
     ]
     columns = (*(f"{q} (%)" for q in short), "mean area (mm²)", "penetration (nm)")
-    found = [ResultTable(f"Differences from {name} {finest}", (name, *columns), tuple(rows))]
+    found = [
+        ResultTable(f"Differences from the finest level, {finest}", (name, *columns), tuple(rows))
+    ]
     if series.algebraic:
         caption = "Observed order of three neighbouring levels (–: their steps do not get smaller)"
         found.append(ResultTable(caption, (name, *short), tuple(orders)))
@@ -44,12 +49,19 @@ def difference_plot(name: str, scale: float, series: Refinement) -> Plot:
     )
     left = series.left_at_default
     caption = (
-        f"Relative difference from the finest level. At the default, "
-        f"{scale * series.levels[series.default]:g}, {100 * left[0]:.2g} % of the contact force, "
+        "Relative difference from the finest level. At the default "
+        f"({_at(name, scale * series.levels[series.default])}) "
+        f"{100 * left[0]:.2g} % of the contact force, "
         f"{100 * left[1]:.2g} % of its dynamic part and {100 * left[4]:.2g} % of the mean peak "
         "pressure are left."
     )
     return Plot(caption, name, "relative difference", curves, "log", "log")
+
+
+def _at(name: str, value: float) -> str:
+    """A level with its quantity and unit: "mesh size 2 mm"."""
+    what, unit, more = re.split(r" \((.+?)\)", name) if "(" in name else (name, "", "")
+    return f"{what} {tick(float(f'{value:.4g}'))} {unit}".strip() + more
 
 
 def left_checks(

@@ -74,8 +74,8 @@ def solid_press() -> CaseResult:
         secant = load / own * 1e-9
         rows.append((load / 1e3, approach * 1e6, own * 1e6, theirs * 1e6, secant))
     table = ResultTable(
-        f"Approach of hub and rail's centre line; far field {far * 1e9:.4f} um/kN taken off",
-        ("load (kN)", "solid (um)", "less far field (um)", "half-space (um)", "secant (GN/m)"),
+        f"Approach of hub and rail's centre line; far field {far * 1e9:.4f} µm/kN taken off",
+        ("load (kN)", "solid (µm)", "less far field (µm)", "half-space (µm)", "secant (GN/m)"),
         tuple(rows),
     )
     return CaseResult(

@@ -67,11 +67,11 @@ def scanned_profiles() -> CaseResult:
             for quantity, computed, reference, unit, source, band, scale in (
                 ("first touch on the rail", found.smooth.arc, touch.arc, "mm",
                  "exact profiles; over the patch's semi-axis", 0.1, b.across),
-                ("height of the facets' first touch", found.facets.travel, touch.travel, "um",
+                ("height of the facets' first touch", found.facets.travel, touch.travel, "µm",
                  "exact profiles; over the approach", 0.1, theirs.travel),
-                ("approach", ours.travel, theirs.travel, "um", halves, 0.01, None),
+                ("approach", ours.travel, theirs.travel, "µm", halves, 0.01, None),
                 ("peak pressure", a.peak_pressure, b.peak_pressure, "MPa", halves, 0.03, None),
-                ("area", a.area, b.area, "mm^2", halves, 0.03, None),
+                ("area", a.area, b.area, "mm²", halves, 0.03, None),
             )
         ]  # fmt: skip
     rows = [
@@ -80,14 +80,14 @@ def scanned_profiles() -> CaseResult:
     ]
     table = ResultTable(
         "Fits of the smooth surfaces to the scans.",
-        ("scan", "points", "residual rms (um)", "largest (um)", "scatter (um)", "knots"),
+        ("scan", "points", "residual rms (µm)", "largest (µm)", "scatter (µm)", "knots"),
         tuple(rows),
     )
     return CaseResult(
         "scanned_profiles",
         "Scanned rail head and wheel tread",
         f"60E1 and S1002 are triangulated irregularly at {1e3 * STEP:g} mm, every coordinate gets "
-        f"{1e6 * NOISE:g} um of noise, and the surfaces, turned by a few mrad and with their "
+        f"{1e6 * NOISE:g} µm of noise, and the surfaces, turned by a few mrad and with their "
         "triangles in any order, are written as STL in mm. They are read again as a user's "
         "scans would be; direction, axle and generating curves are fitted.\n\n"
         "Fitted and exact profiles are then touched and pressed as half-spaces with "
@@ -126,9 +126,9 @@ def _shape(scan: Scan, exact: ProfileCurve) -> tuple[list[Check], Plot]:
     noise, largest = 1e6 * NOISE, float(np.abs(error[inner]).max())
     fitted = f"error of the fitted {kind}"
     checks = [
-        Check(f"residual of {kind}, rms", 1e6 * scan.fit.rms, noise, "um", "the noise", 0.1),
-        check_at_most(f"{fitted}, rms", 1e6 * _rms(error[inner]), noise, "um", "below the noise"),
-        check_at_most(f"{fitted}, largest", 1e6 * largest, noise, "um", "within the noise"),
+        Check(f"residual of {kind}, rms", 1e6 * scan.fit.rms, noise, "µm", "the noise", 0.1),
+        check_at_most(f"{fitted}, rms", 1e6 * _rms(error[inner]), noise, "µm", "below the noise"),
+        check_at_most(f"{fitted}, largest", 1e6 * largest, noise, "µm", "within the noise"),
     ]
     ours, theirs = (_mean_curvature(c, s) for c in (scan.curve, exact))
     scale, turned = float(np.abs(theirs[inner]).max()), _rms((ours - theirs)[inner])
@@ -137,10 +137,10 @@ def _shape(scan: Scan, exact: ProfileCurve) -> tuple[list[Check], Plot]:
     checks.append(Check(name, turned, 0.0, "1/m", source, None, scale=scale))
     figure = Plot(
         f"Distance of the curve fitted to the scan of {kind} from the exact profile: "
-        f"{1e6 * largest:.2g} um at most within 30 mm of its origin, "
-        f"from points with {1e6 * NOISE:g} um of noise each.",
+        f"{1e6 * largest:.2g} µm at most within 30 mm of its origin, "
+        f"from points with {1e6 * NOISE:g} µm of noise each.",
         "arc length (mm)",
-        "error (um)",
+        "error (µm)",
         (curve(kind, 1e3 * s, 1e6 * error),),
     )
     return checks, figure

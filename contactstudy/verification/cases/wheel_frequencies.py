@@ -120,7 +120,7 @@ def brute_force() -> CaseResult:
             0.005,
         ),
         Check("mass", float(box.mass), outline[0], "kg", "Pappus", 0.003),
-        Check("inertia about the axle", float(box.inertia), outline[1], "kg m^2", "Pappus", 0.003),
+        Check("inertia about the axle", float(box.inertia), outline[1], "kg m²", "Pappus", 0.003),
     ]
     rows = tuple(
         (int(n), float(f), float(r), float(100 * (f / r - 1)))

@@ -79,3 +79,17 @@ def test_time_step_of_a_short_real_run() -> None:
     print("against finest", found.against_finest, "orders", found.orders)
     assert np.all(found.against_finest[0, :3] > found.against_finest[1, :3])
     assert found.against_finest[1, 0] < 5e-3
+
+
+@pytest.mark.parametrize(
+    ("name", "scale", "default", "finest"),
+    [
+        ("mesh size (mm)", 1.0, "mesh size 2 mm", "mesh size 0.5 mm"),
+        ("penalty (Pa/m), nodes", 1e16, "penalty 2·10¹⁶ Pa/m, nodes", "penalty 5·10¹⁵ Pa/m, nodes"),
+        ("interface modes", 4.0, "interface modes 8", "interface modes 2"),
+    ],
+)
+def test_captions_name_levels_with_their_units(name, scale, default, finest):
+    series = made_up(1.0)
+    assert f"At the default ({default})" in difference_plot(name, scale, series).caption
+    assert tables(name, scale, series)[0].caption == f"Differences from the finest level, {finest}"
