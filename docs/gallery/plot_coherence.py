@@ -2,7 +2,7 @@
 Coherence of two rails
 ======================
 
-How much the irregularity of one rail says of the other's: long waves are those of the track,
+How much the irregularity of one rail says about the other's: long waves are those of the track,
 short ones each rail's own. Two profiles are made with a given coherence, and it is estimated
 from them again.
 """
@@ -36,7 +36,7 @@ lower.set(xlabel="Wavelength (m)", ylabel="Coherence")
 lower.legend()
 
 # %%
-# An estimate of n segments is too large by about :math:`(1-\\gamma^2)^2/n` (G. C. Carter, Proc.
+# An estimate of n segments is too large by about :math:`(1-\gamma^2)^2/n` (G. C. Carter, Proc.
 # IEEE 75 (1987) 236); here n is about 77.
 
 expected = target(2 * np.pi / wavelength)

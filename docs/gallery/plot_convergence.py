@@ -34,6 +34,8 @@ for name, label in signals.items():
     print(f"{label}: order {fit.order:.2f}, {fit.verdict}")
 axes.loglog(1e6 * steps[:-1], 1e-4 * (steps[:-1] / steps[2]) ** 2, "k--", label="second order")
 axes.set(xlabel="Time step (µs)", ylabel="Relative difference from the finest run")
+axes.set_xticks(1e6 * steps[:-1], [f"{1e6 * step:g}" for step in steps[:-1]])
+axes.set_xticks([], minor=True)
 axes.legend()
 
 # %%

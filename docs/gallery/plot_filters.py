@@ -2,8 +2,8 @@
 Effective roughness
 ===================
 
-What a contact makes of a rough rail before its law acts. A patch takes the mean: of a wave of
-number k there is left :math:`\\sin(ka)/(ka)`, a being half the patch's length. A round wheel
+What a contact makes of a rough rail before its law acts. A patch takes the mean: it leaves
+:math:`\\sin(ka)/(ka)` of a wave of wavenumber k, a being half the patch's length. A round wheel
 bridges dips.
 """
 

@@ -32,7 +32,7 @@ plan.set(xlabel="Along the rail (mm)", ylabel="Across (mm)", aspect="equal")
 fine = np.linspace(points.wheel_x[0], points.wheel_x[-1], 300)
 cut.plot(x, 1e-6 * nodal[:, 0], "o", label="meshed bodies")
 cut.plot(1e3 * fine, 1e-6 * hertz.pressure(fine, 0 * fine), "--", label="Hertz")
-cut.set(xlabel="Along the rail (mm)", ylabel="Pressure (MPa)", ylim=0)
+cut.set(xlabel="Along the rail (mm)", ylabel="Pressure (MPa)", ylim=(0, 1500))
 cut.legend()
 
 # %%

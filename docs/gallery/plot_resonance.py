@@ -3,8 +3,9 @@ Resonance of a bridge under a train
 ===================================
 
 Axles in pairs every 18 m run over a simply supported span of 20 m at many speeds. The deck
-moves most where one load comes in each period of its first mode, or in every second or third,
-and least where a load leaves the span at rest.
+moves most where one load comes in each period of its first mode, and more than around it where
+one comes in every second. The third resonance does not show: at nearly the same speed each load
+leaves the span at rest.
 """
 
 import matplotlib.pyplot as plt
