@@ -1,5 +1,6 @@
 """Draw curves that are given as data, in the one style."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -11,7 +12,7 @@ from contactstudy.plot.style import REFERENCE_STYLE, figure_legend, new_figure, 
 from contactstudy.plot.text import tick
 
 _LEVELS = 9
-"""So many values of an abscissa at most are its ticks."""
+"""So many values of an abscissa at most are its ticks, if they are short."""
 
 
 def draw(plot: Plot) -> Figure:
@@ -52,6 +53,7 @@ def _draw(axes: Axes, plot: Plot) -> None:
         axes.plot(c.x, c.y, **line)
     axes.set(xscale=plot.x_scale, yscale=plot.y_scale, xlabel=plot.x_label, ylabel=plot.y_label)
     levels = sorted({x for c in plot.curves for x in c.x})
-    if plot.x_scale == "log" and len(levels) <= _LEVELS:
+    short = all(math.isclose(x, float(f"{x:.3g}")) for x in levels)
+    if plot.x_scale == "log" and short and len(levels) <= _LEVELS:
         axes.set_xticks(levels, [tick(x) for x in levels])
         axes.set_xticks([], minor=True)
