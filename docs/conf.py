@@ -1,5 +1,6 @@
 """Configuration of the documentation: ``sphinx-build -W docs site`` writes static HTML."""
 
+import re
 import sys
 from pathlib import Path
 
@@ -26,6 +27,7 @@ html_static_path = ["static", "generated"]
 html_css_files = ["explorer.css", "formulas.css", "gallery.css", "tables.css"]
 html_show_search_summary = False  # it asks for pages as a server gives them, not from disk
 html_show_copyright = False
+smartquotes = False  # what stands in quotation marks is often a value to copy
 # the studies and scripts of these pages stand in files that are not part of the site
 suppress_warnings = ["myst.xref_missing"]
 html_theme_options = {"sidebar_hide_name": False}
@@ -50,3 +52,9 @@ def setup(app):
     pages.write(HERE)
     executed.run_all(HERE)
     mathematics.setup(app)
+    app.connect("autodoc-process-signature", without_private)
+
+
+def without_private(app, what, name, thing, options, signature, returned):
+    """Signature without arguments that are the program's own."""
+    return re.sub(r", _\w+=[^,)]*", "", signature or ""), returned

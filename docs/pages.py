@@ -47,7 +47,7 @@ def _bokeh(name: str) -> Path:
 def printed(*arguments: str) -> str:
     """What a command prints, as wide as a page."""
     out = io.StringIO()
-    os.environ["COLUMNS"] = "94"
+    os.environ["COLUMNS"] = "88"
     with contextlib.redirect_stdout(out), contextlib.suppress(SystemExit):
         cli.main(list(arguments))
     return out.getvalue()
@@ -79,7 +79,9 @@ def book(file: Path) -> dict[str, str]:
         "# Verification book",
         "",
         "Each page is one case as `contactstudy verify` computed it: the problem, the exact or",
-        "published figure, and ours beside it. No number on these pages is typed.",
+        "published figure, and ours beside it. No number on these pages is typed. The error is",
+        "computed less reference, over the size of the reference; the band is what is allowed.",
+        "Some differences are reported and not judged.",
         "",
         f"Computed with {versions}; code {data['code']}.",
         "",
@@ -119,15 +121,22 @@ def _check(check: Check) -> str:
         check.quantity,
         f"{limit}{check.reference:.6g} {check.unit}",
         f"{check.computed:.6g} {check.unit}",
-        f"{100 * check.error:.3g} %",
-        "reported" if check.band is None else f"{100 * check.band:.3g} %",
+        f"{100 * check.error:.3g} %" if check.sense == "equal" else "",
+        _band(check),
         check.source,
     )
     return f"| {' | '.join(map(_cell, cells))} |"
 
 
+def _band(check: Check) -> str:
+    """What is allowed: a limit has no band, unless it may be exceeded by one."""
+    if check.band is None:
+        return "reported"
+    return f"{100 * check.band:.3g} %" if check.sense == "equal" or check.band else "limit"
+
+
 def _cell(value: object) -> str:
-    text = f"{value:.4g}" if isinstance(value, float) else "" if value is None else str(value)
+    text = f"{value:.4g}" if isinstance(value, float) else "–" if value is None else str(value)
     return text.replace("|", "\\|").replace("\n", " ").strip()
 
 
