@@ -86,6 +86,8 @@ def run_blocks(name: str, text: str) -> list[str]:
             every.append(printed)
         else:
             raise PageError(f"{place}: no block of {language}")
+    if drawing := sys.modules.get("matplotlib.pyplot"):
+        drawing.close("all")  # the gallery would take them for those of its first example
     return every
 
 

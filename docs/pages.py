@@ -132,7 +132,7 @@ def _band(check: Check) -> str:
     """What is allowed: a limit has no band, unless it may be exceeded by one."""
     if check.band is None:
         return "reported"
-    return f"{100 * check.band:.3g} %" if check.sense == "equal" or check.band else "limit"
+    return f"{100 * check.band:.3g} %" if check.sense == "equal" or check.band > 1e-9 else "limit"
 
 
 def _cell(value: object) -> str:

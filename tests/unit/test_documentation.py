@@ -11,6 +11,7 @@ from typing import get_args, get_type_hints
 
 import pytest
 from built_site import docs_module
+from matplotlib import pyplot
 
 from contactstudy.commands import app
 from contactstudy.study.kinds.passage.runs import PointRun
@@ -116,6 +117,13 @@ def test_a_page_that_says_something_else_is_refused(
     page = PAGE.replace(right, wrong) if right != "of" else PAGE.replace("...", wrong)
     with pytest.raises(executed.PageError, match=re.escape(told)):
         executed.run_page("page.md", page)
+
+
+def test_a_page_leaves_no_figure_open(executed, tmp_path, monkeypatch):
+    """The gallery, built after the pages, shows what is open in its first example."""
+    monkeypatch.chdir(tmp_path)
+    executed.run_page("page.md", "```python\nimport matplotlib.pyplot as plt\nplt.figure()\n```\n")
+    assert pyplot.get_fignums() == []
 
 
 TABLES = """
