@@ -22,6 +22,8 @@ from contactstudy.process import ONE_THREAD
 from contactstudy.texts import visible
 
 _ENDING = (signal.SIGINT, signal.SIGTERM)
+_AGAIN = 0.2  # s until an interrupt that nobody has dealt with comes again
+_stopped: list[int] = []
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -47,10 +49,12 @@ def _status(tokens: Sequence[str]) -> int:
         _call(tokens)
         if sys.stdout is not None:
             sys.stdout.flush()  # who does not read is found out here, not at the exit
+        _no_more()
     except ContactStudyError as error:
         _complain(str(error))
         return error.exit_status
     except KeyboardInterrupt as stop:
+        _no_more()
         # CPython ends by SIGINT where the last text that it compiled and ran, as dataclasses do,
         # was interrupted, though it is caught here; a text that runs to its end puts that right
         exec("")
@@ -88,12 +92,31 @@ def _interrupts() -> Iterator[None]:
         return
     before = {number: signal.signal(number, _interrupt) for number in _ENDING}
     yield
+    _no_more()
     for number, handler in before.items():
         signal.signal(number, handler or signal.SIG_DFL)
 
 
 def _interrupt(number: int, frame: FrameType | None) -> None:
+    # libraries catch whatever is raised while they import what they can do without
+    _stopped.append(number)
+    if os.name == "posix":
+        signal.signal(signal.SIGALRM, _again)
+        signal.setitimer(signal.ITIMER_REAL, _AGAIN, _AGAIN)
     raise KeyboardInterrupt(number)
+
+
+def _again(alarm: int, frame: FrameType | None) -> None:
+    """The same interrupt once more, but not in what it has set off."""
+    if _stopped and not isinstance(sys.exception(), KeyboardInterrupt):
+        raise KeyboardInterrupt(_stopped[-1])
+
+
+def _no_more() -> None:
+    """An interrupt that has come does not come again."""
+    if _stopped and os.name == "posix":
+        signal.setitimer(signal.ITIMER_REAL, 0.0)
+    _stopped.clear()
 
 
 def _call(tokens: Sequence[str]) -> None:
