@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import contextlib
 import importlib
+import io
 import shutil
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from importlib.util import find_spec
 
 from contactstudy.exceptions import InputError
 from contactstudy.verification.check import CaseResult
@@ -46,14 +47,23 @@ class Case:
         return found
 
     def missing(self) -> tuple[str, ...]:
-        """What is needed and not installed, e.g. "the program ccx"."""
+        """What is needed and not installed, or cannot be imported, e.g. "the program ccx"."""
         absent = []
         for need in self.needs:
             kind, _, name = need.partition(":")
-            present = shutil.which(name) if kind == "program" else find_spec(name)
-            if present is None:
+            if not (shutil.which(name) if kind == "program" else _imports(name)):
                 absent.append(f"the {kind} {name}")
         return tuple(absent)
+
+
+def _imports(name: str) -> bool:
+    """Whether a package is there; one may be without its compiled part, for another Python."""
+    with contextlib.redirect_stderr(io.StringIO()):
+        try:
+            importlib.import_module(name)
+        except ImportError:
+            return False
+    return True
 
 
 def select(cases: Sequence[Case], names: tuple[str, ...] = ()) -> tuple[Case, ...]:

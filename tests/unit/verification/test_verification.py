@@ -131,6 +131,13 @@ def test_unknown_cases_are_all_listed_with_those_that_are():
     ]
 
 
+def test_a_package_without_its_compiled_part_is_missing(tmp_path, monkeypatch):
+    (tmp_path / "half_installed.py").write_text("from half_installed_core import solve")
+    monkeypatch.syspath_prepend(tmp_path)
+    case = Case("far", "far:far", needs=("package:half_installed",))
+    assert case.missing() == ("the package half_installed",)
+
+
 def test_what_is_missing_is_named():
     case = Case("far", "far:far", needs=("program:no_such_program", "package:json"))
     assert case.missing() == ("the program no_such_program",)
