@@ -30,13 +30,9 @@ def windows(matrix: sp.csr_array) -> Windows:
     """
     csr = sp.csr_array(matrix)
     csr.sort_indices()
-    begin, stop = csr.indptr[:-1].astype(np.int64), csr.indptr[1:].astype(np.int64)
-    filled = stop > begin
-    first, last = np.zeros_like(begin), np.full_like(begin, -1)
-    first[filled], last[filled] = csr.indices[begin[filled]], csr.indices[stop[filled] - 1]
-    width = last - first + 1
-    rows = np.repeat(np.arange(len(begin)), stop - begin)
-    padded = np.zeros((len(begin), max(int(width.max(initial=0)), 1)))
+    first, width = _extent(csr)
+    rows = np.repeat(np.arange(len(first)), np.diff(csr.indptr))
+    padded = np.zeros((len(first), max(int(width.max(initial=0)), 1)))
     padded[rows, csr.indices - first[rows]] = csr.data
     whole = padded.view(np.dtype((np.void, padded.shape[1] * padded.itemsize))).ravel()
     _, which, of_row = np.unique(whole, return_index=True, return_inverse=True)
@@ -45,10 +41,16 @@ def windows(matrix: sp.csr_array) -> Windows:
 
 def gaps(matrix: sp.csr_array) -> float:
     """Zeros inside the windows of a matrix with sorted indices, relative to its values."""
-    begin, stop = matrix.indptr[:-1], matrix.indptr[1:]
+    return float(_extent(matrix)[1].sum()) / max(matrix.nnz, 1) - 1.0
+
+
+def _extent(csr: sp.csr_array) -> tuple[IntArray, IntArray]:
+    """First column and width of each row of a matrix with sorted indices, 0 of an empty one."""
+    begin, stop = csr.indptr[:-1].astype(np.int64), csr.indptr[1:].astype(np.int64)
     filled = stop > begin
-    width = 1 + matrix.indices[stop[filled] - 1] - matrix.indices[begin[filled]]
-    return float(width.sum(dtype=np.int64)) / max(matrix.nnz, 1) - 1.0
+    first, last = np.zeros_like(begin), np.full_like(begin, -1)
+    first[filled], last[filled] = csr.indices[begin[filled]], csr.indices[stop[filled] - 1]
+    return first, last - first + 1
 
 
 @compiled_in_any_order

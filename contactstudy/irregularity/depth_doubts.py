@@ -7,7 +7,7 @@ import numpy as np
 
 from contactstudy.arrays import Array, IntArray
 from contactstudy.csv_rows import listed
-from contactstudy.irregularity.plausible import placeholders
+from contactstudy.irregularity.plausible import no_values, placeholders
 
 if TYPE_CHECKING:
     from contactstudy.irregularity.depth_map import DepthTable
@@ -22,12 +22,8 @@ _CLIFF = 0.1  # share of the largest depth that may be left at an end
 def impossible(file: Path, depth: Array, lines: IntArray) -> list[str]:
     """Complaints of depths (n,) [mm] in those lines (n,) that no wheel has."""
     empty = placeholders(depth)
-    faults = [
-        f"line {lines[k]}, column 'depth' is {depth[k]:g}, which looks like a placeholder for no "
-        "value; a map needs a depth at every place"
-        for k in np.flatnonzero(empty)
-    ]
-    problems = listed(file, faults)
+    then = "a map needs a depth at every place"
+    problems = listed(file, no_values(empty, depth, lines, "depth", then))
     faults = [
         f"line {lines[k]}, column 'depth' is {depth[k]:g} mm; allowed: -{DEEPEST:g} to "
         f"{DEEPEST:g} mm (is the unit right?)"

@@ -48,14 +48,7 @@ def implausible(
         ],
     )
     empty = placeholders(level)
-    problems += listed(
-        file,
-        [
-            f"line {lines[k]}, column '{column}' is {level[k]:g}, which looks like a placeholder "
-            "for no value; leave such rows out"
-            for k in np.flatnonzero(empty)
-        ],
-    )
+    problems += listed(file, no_values(empty, level, lines, column))
     name, metre = unit
     huge = np.abs(level) * metre > LARGEST
     problems += listed(
@@ -71,6 +64,17 @@ def implausible(
     if level[0] != 0.0 and np.all(level == level[0]):
         problems.append(f"{file}, column '{column}' is {level[0]:g} in all rows: a dead channel")
     return problems
+
+
+def no_values(
+    empty: BoolArray, values: Array, lines: IntArray, column: str, then: str = "leave such rows out"
+) -> list[str]:
+    """A complaint of each placeholder among values (n,), and what to do then."""
+    return [
+        f"line {lines[k]}, column '{column}' is {values[k]:g}, which looks like a placeholder for "
+        f"no value; {then}"
+        for k in np.flatnonzero(empty)
+    ]
 
 
 def placeholders(level: Array) -> BoolArray:

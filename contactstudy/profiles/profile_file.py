@@ -102,7 +102,8 @@ def _miniprof(path: Path, rows: Rows, ignored: list[str]) -> tuple[Rows, int | N
     columns = values.get("columndef", "X,Y").upper()
     if not columns.startswith("X,Y"):
         raise InputError(f"{path}: ColumnDef={columns}; allowed: X,Y first")
-    ignored += [f"{name} = {v}" for name in _MOVES if (v := values.get(name)) and _not_zero(v)]
+    moved = {name: text for name in _MOVES if (text := values.get(name))}
+    ignored += [f"{name} = {text}" for name, text in moved.items() if finite_number(text) != 0.0]
     count = values.get("xypoints", "")
     return rows[begin:], int(count) if re.fullmatch("[0-9]{1,7}", count) else None
 
@@ -144,10 +145,6 @@ def _simpack(
         if low is not None and high is not None and low < high:
             ignored.append(f"bound.{axis} = {low:g} to {high:g}")
     return rows[begin + 1 : end], 1.0 / units
-
-
-def _not_zero(text: str) -> bool:
-    return finite_number(text) != 0.0
 
 
 def _pair(row: tuple[int, str]) -> bool:

@@ -71,7 +71,7 @@ def _observed(results: StudyResults) -> list[str]:
         expected = one.data.attrs.get("expected_order")
         if expected and one.name.startswith("from_finest"):
             what = f"{title_of(one.data.attrs['refined'])} {expected:g}"
-            found.setdefault(one.title.rpartition(" (")[0], []).extend(
+            found.setdefault(one.quantity_and_unit[0], []).extend(
                 (line.agrees(expected), what, f"{line.name} {line.order_text}".strip())
                 for line in convergences(one)
             )
@@ -188,7 +188,7 @@ def _orders(results: StudyResults, design: str) -> list[str]:
         if expected and (lines := convergences(one)):
             yes = [f"{line.name} ({line.order_text})" for line in lines if line.agrees(expected)]
             no = [f"{line.name} ({line.order_text})" for line in lines if not line.agrees(expected)]
-            told += f" {one.title.rpartition(' (')[0]}:"
+            told += f" {one.quantity_and_unit[0]}:"
             told += f" observed of {', '.join(yes)};" if yes else ""
             told += f" not of {', '.join(no)};" if no else ""
             told = told.removesuffix(";") + "."

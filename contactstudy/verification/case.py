@@ -58,7 +58,7 @@ class Case:
 
 def _imports(name: str) -> bool:
     """Whether a package is there; one may be without its compiled part, for another Python."""
-    with contextlib.redirect_stderr(io.StringIO()):
+    with contextlib.redirect_stdout(io.StringIO()):
         try:
             importlib.import_module(name)
         except ImportError:

@@ -74,8 +74,8 @@ def _draw(quantity: Shown) -> Figure:
     if not parts.wide(every):
         right.set_ylim(low - margin, high + margin)
     left.set(xlabel=quantity.title, ylabel="Share of the sample", ylim=(0, 1))
-    unit = quantity.title.rpartition(" (")[2] if quantity.title.endswith(")") else ""
-    right.set(xlabel="Number of samples", ylabel=f"Mean ({unit}" if unit else "Mean")
+    _, unit = quantity.quantity_and_unit
+    right.set(xlabel="Number of samples", ylabel=f"Mean ({unit})" if unit else "Mean")
     right.xaxis.set_major_locator(MaxNLocator(integer=True))
     figure_legend(figure, left)
     return figure

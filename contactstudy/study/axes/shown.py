@@ -45,6 +45,14 @@ class Shown:
         return f"{self.data.attrs['design']}_{self.name}".replace(".", "_")
 
     @property
+    def quantity_and_unit(self) -> tuple[str, str]:
+        """The title's two parts; "" for no unit."""
+        if not self.title.endswith(")"):
+            return self.title, ""
+        what, _, unit = self.title[:-1].rpartition(" (")
+        return what, unit
+
+    @property
     def axes(self) -> list[str]:
         """Dimensions that vary."""
         return [str(d) for d in self.values.dims if d != RUN]

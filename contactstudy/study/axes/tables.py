@@ -45,7 +45,7 @@ def tables(results: StudyResults) -> Iterator[TableData]:
             yield _refinement(design, quantities)
         elif not free:
             yield _sample(design, quantities)
-        elif np.prod([data.sizes[d] for d in free]) * len(quantities) ** bool(refined) <= _ROWS:
+        elif np.prod([data.sizes[d] for d in free]) * (len(quantities) if refined else 1) <= _ROWS:
             yield from (_values(design, quantity, free) for quantity in quantities)
         else:
             yield _ends(design, quantities, free)

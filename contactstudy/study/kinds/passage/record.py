@@ -19,7 +19,7 @@ from contactstudy.solvers.bridge_sensors import IN_SPACE, ON_SUPPORTS, VARIABLES
 from contactstudy.solvers.dataset import POINT_SIGNALS, SIGNALS
 from contactstudy.solvers.journey import Journey
 from contactstudy.study.kinds.passage.on_bridge import planar_on
-from contactstudy.study.kinds.passage.record_faults import gaps, no_values, wrong_columns
+from contactstudy.study.kinds.passage.record_faults import gaps, jumps_to_nothing, wrong_columns
 from contactstudy.track.model import Track
 from contactstudy.units import UnitError, to_si
 from contactstudy.validation import Above, File, Naming, Parameters, Unit, complaint, did_you_mean
@@ -213,7 +213,7 @@ def _read(own: MeasuredRecord, changed: int) -> Record:
     if not problems:
         problems += gaps(own.file, time, lines)
         for column, values in zip(columns, table[:, len(named) :].T, strict=True):
-            problems += no_values(own.file, column, values, lines)
+            problems += jumps_to_nothing(own.file, column, values, lines)
         problems += [
             f"{own.file}, column '{column}' is {values[0]:g} throughout; there is nothing to lay "
             "over a computed signal"

@@ -7,7 +7,7 @@ import numpy as np
 
 from contactstudy.arrays import Array, IntArray
 from contactstudy.csv_rows import listed
-from contactstudy.irregularity.plausible import placeholders
+from contactstudy.irregularity.plausible import no_values, placeholders
 
 _GAP = 10  # median steps of time that a record may be without a row
 
@@ -38,16 +38,9 @@ def gaps(file: str, time: Array, lines: IntArray) -> list[str]:
     )
 
 
-def no_values(file: str, column: str, values: Array, lines: IntArray) -> list[str]:
+def jumps_to_nothing(file: str, column: str, values: Array, lines: IntArray) -> list[str]:
     """Complaints of placeholders among values (n,) of a column, where they begin and end."""
     # a peak may reach 999, but does not jump there
     jumps = np.abs(np.diff(values, prepend=values[:1], append=values[-1:]))
     begin_or_end = np.maximum(jumps[:-1], jumps[1:]) > 0.5 * np.abs(values)
-    return listed(
-        file,
-        [
-            f"line {lines[k]}, column '{column}' is {values[k]:g}, which looks like a placeholder "
-            "for no value; leave such rows out"
-            for k in np.flatnonzero(placeholders(values) & begin_or_end)
-        ],
-    )
+    return listed(file, no_values(placeholders(values) & begin_or_end, values, lines, column))
